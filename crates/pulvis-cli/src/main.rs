@@ -1,0 +1,2 @@
+//! The `pulvis` command.
+fn main() {}
