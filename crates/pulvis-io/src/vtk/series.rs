@@ -1,0 +1,144 @@
+//! The frames of a run, numbered, with an index that is complete after every frame.
+
+use super::frame::{ContactFrame, ParticleFrame, write_contacts, write_particles};
+use super::index::{Entry, read_series, write_blocks, write_series};
+use crate::{IoError, file};
+use std::path::{Path, PathBuf};
+
+/// Writes frame after frame into one folder and keeps the index `series.pvd` up to date.
+///
+/// The order of writing is particles, contacts, frame, index; each file appears whole. An interrupted run therefore leaves
+/// an index whose every entry can be opened.
+#[derive(Debug)]
+pub struct SeriesWriter {
+    folder: PathBuf,
+    prefix: String,
+    entries: Vec<Entry>,
+}
+
+impl SeriesWriter {
+    /// Starts a series in `folder`, which is created if missing.
+    ///
+    /// A `prefix` that is not empty begins the name of every file (`settling_frame_0000.vtm`), for several series in one
+    /// folder. An older series of the same name is replaced from the first frame on.
+    ///
+    /// # Errors
+    /// The folder cannot be created.
+    pub fn create(folder: impl Into<PathBuf>, prefix: &str) -> Result<Self, IoError> {
+        let folder = folder.into();
+        file::create_folder(&folder)?;
+        let prefix = if prefix.is_empty() { String::new() } else { format!("{prefix}_") };
+        Ok(Self { folder, prefix, entries: Vec::new() })
+    }
+
+    /// Goes on with the series of an interrupted run: frames before `time` [s] stay in the index, later ones are
+    /// written again. Without an index this is [`SeriesWriter::create`].
+    ///
+    /// # Errors
+    /// The folder cannot be created, or its index cannot be read.
+    pub fn resume(folder: impl Into<PathBuf>, prefix: &str, time: f64) -> Result<Self, IoError> {
+        let mut series = Self::create(folder, prefix)?;
+        if series.index().exists() {
+            series.entries = read_series(&series.index())?;
+            series.entries.retain(|entry| entry.time < time);
+        }
+        Ok(series)
+    }
+
+    /// Writes one frame at `time` [s] and lists it in the index; returns the frame's file.
+    ///
+    /// # Errors
+    /// A time that is not finite or not later than the frame before, a column of the wrong length, or a file that cannot
+    /// be written. The index then still holds the frames before.
+    pub fn write(
+        &mut self,
+        time: f64,
+        particles: &ParticleFrame<'_>,
+        contacts: &ContactFrame<'_>,
+    ) -> Result<PathBuf, IoError> {
+        let previous = self.entries.last().map_or(f64::NEG_INFINITY, |entry| entry.time);
+        if !time.is_finite() || time <= previous {
+            return Err(IoError::FrameTime { time, previous });
+        }
+        let name = |kind: &str, ending: &str| {
+            format!("{}{kind}_{number:04}.{ending}", self.prefix, number = self.entries.len())
+        };
+        let (particle_file, contact_file) = (name("particles", "vtp"), name("contacts", "vtp"));
+        let frame_file = name("frame", "vtm");
+        write_particles(&self.folder.join(&particle_file), particles)?;
+        write_contacts(&self.folder.join(&contact_file), contacts)?;
+        let path = self.folder.join(&frame_file);
+        write_blocks(&path, &[("Particles", &particle_file), ("Contacts", &contact_file)])?;
+        self.entries.push(Entry { time, file: frame_file });
+        write_series(&self.index(), &self.entries)?;
+        Ok(path)
+    }
+
+    /// Number of frames in the index.
+    pub fn frames(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Path of the index, the file to open in ParaView.
+    pub fn index(&self) -> PathBuf {
+        self.folder.join(format!("{}series.pvd", self.prefix))
+    }
+
+    /// The folder of the series.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+    use super::*;
+
+    const NO_PARTICLES: ParticleFrame<'static> = ParticleFrame { positions: &[], columns: &[] };
+    const NO_CONTACTS: ContactFrame<'static> = ContactFrame { ends: &[], columns: &[] };
+
+    #[test]
+    fn the_index_is_complete_after_every_frame() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut series = SeriesWriter::create(folder.path().join("run"), "").unwrap();
+        for (number, time) in [0.0, 0.1, 0.30000000000000004].into_iter().enumerate() {
+            let frame = series.write(time, &NO_PARTICLES, &NO_CONTACTS).unwrap();
+            let entries = read_series(&series.index()).unwrap();
+            assert_eq!(entries.len(), number + 1);
+            assert_eq!(entries[number].time.to_bits(), time.to_bits());
+            assert_eq!(series.folder().join(&entries[number].file), frame);
+            assert!(frame.exists());
+        }
+        let hidden = std::fs::read_dir(series.folder()).unwrap();
+        let hidden = hidden.filter(|entry| entry.as_ref().unwrap().file_name().to_string_lossy().starts_with('.'));
+        assert_eq!(hidden.count(), 0, "no temporary file stays");
+    }
+
+    #[test]
+    fn a_resumed_run_writes_the_frames_after_the_checkpoint_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut series = SeriesWriter::create(folder.path(), "a&b").unwrap();
+        for time in [0.0, 1.0, 2.0] {
+            series.write(time, &NO_PARTICLES, &NO_CONTACTS).unwrap();
+        }
+        let mut series = SeriesWriter::resume(folder.path(), "a&b", 1.5).unwrap();
+        assert_eq!(series.frames(), 2);
+        let frame = series.write(1.5, &NO_PARTICLES, &NO_CONTACTS).unwrap();
+        assert!(frame.ends_with("a&b_frame_0002.vtm"));
+        let times: Vec<f64> = read_series(&series.index()).unwrap().iter().map(|entry| entry.time).collect();
+        assert_eq!(times, [0.0, 1.0, 1.5]);
+    }
+
+    #[test]
+    fn a_time_that_goes_back_or_is_no_number_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut series = SeriesWriter::create(folder.path(), "").unwrap();
+        series.write(1.0, &NO_PARTICLES, &NO_CONTACTS).unwrap();
+        for time in [1.0, 0.5, f64::NAN, f64::INFINITY] {
+            let error = series.write(time, &NO_PARTICLES, &NO_CONTACTS);
+            assert!(matches!(error, Err(IoError::FrameTime { previous: 1.0, .. })));
+        }
+        assert_eq!(series.frames(), 1);
+    }
+}
