@@ -1,0 +1,115 @@
+//! One scenario file: loaded, parsed, and read with all its mistakes collected.
+
+use crate::error::{InputError, InputErrors};
+use crate::load::read_source;
+use crate::overrides::{Replacement, replace};
+use crate::problem::Problem;
+use crate::reader::{Context, Location, Reported, TableReader};
+use crate::source::Source;
+use crate::value::Table;
+use std::path::Path;
+use std::sync::Arc;
+use toml::de::DeTable;
+
+/// A parsed file in which every key and value knows its place.
+#[derive(Clone, Debug)]
+pub struct Document {
+    source: Arc<Source>,
+    root: Table,
+}
+
+impl Document {
+    /// Reads and parses a file.
+    ///
+    /// # Errors
+    /// The file is missing, a folder, no text, empty, or no TOML; all syntax errors are listed.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, InputErrors> {
+        Self::parse(read_source(path.as_ref())?)
+    }
+
+    /// Parses a text; `name` stands for the file in error messages.
+    ///
+    /// # Errors
+    /// The text is empty or no TOML.
+    pub fn from_str(name: &str, text: &str) -> Result<Self, InputErrors> {
+        Self::parse(Source::new(name, text))
+    }
+
+    fn parse(source: Source) -> Result<Self, InputErrors> {
+        let (table, errors) = DeTable::parse_recoverable(&source.text);
+        if !errors.is_empty() {
+            return Err(InputErrors::new(syntax_errors(&source, &errors)));
+        }
+        let root = Table::from_toml(table.get_ref());
+        if root.entries.is_empty() {
+            return Err(InputError::of_file(&source.name, Problem::Empty).into());
+        }
+        Ok(Self { source: Arc::new(source), root })
+    }
+
+    /// The name of the file, as the user wrote it.
+    pub fn name(&self) -> &str {
+        &self.source.name
+    }
+
+    /// The text of the file, for example to store it beside the results.
+    pub fn text(&self) -> &str {
+        &self.source.text
+    }
+
+    /// Walks the file. `walk` reports mistakes through the reader and goes on as long as it can.
+    ///
+    /// # Errors
+    /// All mistakes that were reported, even if `walk` itself returned a value.
+    pub fn read<T>(
+        &self,
+        walk: impl FnOnce(TableReader<'_>) -> Result<T, Reported>,
+    ) -> Result<T, InputErrors> {
+        let context = Context::new(&self.source);
+        let result = walk(TableReader::new(&context, &self.root, String::new(), 0..0));
+        match (result, context.into_errors()) {
+            (Ok(value), errors) if errors.is_empty() => Ok(value),
+            (_, errors) => Err(InputErrors::new(errors)),
+        }
+    }
+
+    /// A mistake at a place that was remembered while reading, for checks across tables.
+    pub fn error_at(&self, location: &Location, problem: Problem) -> InputError {
+        location.error(&self.source, problem)
+    }
+
+    /// The same file with one value replaced, as a sweep or a stage does it.
+    ///
+    /// `path` is dotted: `contact.normal.kc`, `stages[0].duration`. The value's place stays that of the
+    /// replaced one, so that errors still point into the file.
+    ///
+    /// # Errors
+    /// The path leads nowhere, or to a table or list.
+    pub fn with_override(&self, path: &str, value: impl Into<Replacement>) -> Result<Self, InputErrors> {
+        let mut root = self.root.clone();
+        replace(&mut root, &self.source, path, value.into())?;
+        Ok(Self { source: Arc::clone(&self.source), root })
+    }
+}
+
+/// One error a line: after the first one, the parser often stumbles over the rest of the same line.
+fn syntax_errors(source: &Source, errors: &[toml::de::Error]) -> Vec<InputError> {
+    let mut lines = Vec::new();
+    let mut kept = Vec::new();
+    for error in errors {
+        let span = error.span().unwrap_or(source.text.len()..source.text.len());
+        let place = source.place(&span);
+        if lines.contains(&place.line) {
+            continue;
+        }
+        lines.push(place.line);
+        let key = source.text.get(span).unwrap_or_default();
+        let message = match error.message() {
+            "duplicate key" => format!("the key `{key}` stands here a second time"),
+            other => other.to_owned(),
+        };
+        let problem = Problem::Syntax { message };
+        kept.push(InputError { place: Some(place), ..InputError::of_file(&source.name, problem) });
+    }
+    kept
+}
