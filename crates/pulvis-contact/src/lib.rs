@@ -1,1 +1,39 @@
-//! See the crate description.
+//! Level 1 of the house: ONE contact.
+//!
+//! A contact is composed of a normal law, an attraction at a distance, a dashpot, and resistance
+//! against sliding, rolling and torsion. Each law is one file that holds its formula, written once
+//! over the scalar trait [`pulvis_math::Real`], and its description for the [`catalogue`]. Memory
+//! is plain columns of numbers. Closed forms that laws are verified against stand in [`theory`].
+//!
+//! ```
+//! use pulvis_contact::catalogue::Values;
+//! use pulvis_contact::{Normal, NormalLaw, Pair};
+//!
+//! let values = Values::new().with("k1", 100.0).with("kp", 500.0).with("kc", 100.0).with("phi_f", 0.05);
+//! let law = Normal::build("luding", &values).expect("the law exists").expect("valid parameters");
+//! let Normal::Luding(luding) = law else { unreachable!() };
+//! let pair = Pair::spheres(1e-6, 1e-6, 1e-3, 1e-3);
+//! let mut memory = Default::default();
+//! // Virgin loading follows k1.
+//! assert_eq!(luding.respond(&pair, 1e-6, &mut memory).force, 1e-4);
+//! ```
+
+pub mod catalogue;
+pub mod conventions;
+mod energy;
+pub mod friction;
+mod model;
+pub mod noncontact;
+pub mod normal;
+mod pair;
+pub mod theory;
+pub mod viscosity;
+
+pub use conventions::Conventions;
+pub use energy::ContactEnergies;
+pub use friction::SpringSlider;
+pub use model::{Composition, ContactMemory, ContactModel, ContactResponse, PairMotion};
+pub use noncontact::NonContact;
+pub use normal::{Linear, Luding, Memory, Normal, NormalLaw, NormalLawVisitor, NormalResponse};
+pub use pair::Pair;
+pub use viscosity::Viscosity;

@@ -1,0 +1,62 @@
+//! The energies of a contact, account by account.
+
+use std::ops::AddAssign;
+
+use pulvis_math::Real;
+
+macro_rules! contact_energies {
+    ($($(#[$doc:meta])* $account:ident),* $(,)?) => {
+        /// What a contact holds now, what it has lost since the last call, and at which power its
+        /// dashpots take energy now.
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        pub struct ContactEnergies<R = f64> {
+            $($(#[$doc])* pub $account: R,)*
+        }
+
+        impl<R: Real> AddAssign for ContactEnergies<R> {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                $(self.$account += other.$account;)*
+            }
+        }
+
+        impl<R: Real> ContactEnergies<R> {
+            /// The sum over the lanes, account by account.
+            #[inline(always)]
+            pub fn sum_lanes(&self) -> ContactEnergies<f64> {
+                ContactEnergies { $($account: self.$account.sum_lanes(),)* }
+            }
+
+            /// Every account where `mask` holds, zero elsewhere.
+            #[inline(always)]
+            pub fn keep_where(&self, mask: R::Mask) -> Self {
+                Self { $($account: self.$account.keep_where(mask),)* }
+            }
+        }
+    };
+}
+
+contact_energies! {
+    /// Held by the normal law's elastic branch [J].
+    elastic_normal,
+    /// Held by the sliding spring [J].
+    elastic_sliding,
+    /// Held by the rolling spring [J].
+    elastic_rolling,
+    /// Held by the torsion spring [J].
+    elastic_torsion,
+    /// Potential of the attraction, zero out of reach [J].
+    adhesive_potential,
+    /// Lost by plastic deformation since the last call [J].
+    dissipated_plastic,
+    /// Lost on the adhesive limit branch and by attraction that sets in suddenly, since the last call [J].
+    dissipated_adhesive,
+    /// Lost by sliding since the last call [J].
+    dissipated_sliding,
+    /// Lost by rolling slip since the last call [J].
+    dissipated_rolling,
+    /// Lost by torsion slip since the last call [J].
+    dissipated_torsion,
+    /// Power of all dashpots now [W].
+    viscous_power,
+}

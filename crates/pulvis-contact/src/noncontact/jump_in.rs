@@ -1,0 +1,122 @@
+//! The irreversible attraction that jumps in at touch.
+
+use pulvis_math::Real;
+
+use super::{NonContactLaw, NonContactResponse, linear_tail, reversible};
+use crate::catalogue::{InvalidParameter, Law, LawEntry, Role, Values};
+
+/// Attraction that is absent on approach, jumps to −f_a at touch, and on separation fades linearly
+/// down to δ_a = −f_a/k_c^a. The pair remembers the touch until it is out of reach; coming together
+/// again it starts anew. The energy f_a²/(2 k_c^a) that separation will cost is booked as adhesive
+/// dissipation at the jump.
+///
+/// # Source
+/// A. Singh, V. Magnanimo, S. Luding, arXiv:1503.03720 ("S1"), eq. (15); the branch followed on
+/// separation is that of eqs. (13) and (14).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JumpIn {
+    /// Adhesion force f_a in contact [N].
+    pub f_a: f64,
+    /// Slope k_c^a on separation [N/m].
+    pub kc_a: f64,
+}
+
+impl Law for JumpIn {
+    const ENTRY: LawEntry = LawEntry {
+        role: Role::NonContact,
+        name: "jump-in",
+        summary: "attraction that sets in at touch and fades on separation, irreversible",
+        equations: "\
+f   = 0                          on approach, δ < 0
+f   = −f_a                       in contact, δ ≥ 0
+f   = −k_c^a δ − f_a             after a touch, for δ_a < δ < 0,  δ_a = −f_a/k_c^a
+f   = 0                          for δ ≤ δ_a; the touch is forgotten",
+        source: "Singh, Magnanimo & Luding, arXiv:1503.03720, eq. 15",
+        parameters: reversible::PARAMETERS,
+        memory: &["touched [1]"],
+        closed_form: "pull-off efficiency ε_o and v_f^a in pulvis_contact::theory (S1 eqs. 18, 19)",
+        example: "law = \"jump-in\"\nf_a = \"1e-5 N\"\nkc_a = \"50 N/m\"",
+    };
+
+    fn from_values(values: &Values) -> Result<Self, InvalidParameter> {
+        Ok(Self { f_a: values.number("f_a")?, kc_a: values.number("kc_a")? })
+    }
+}
+
+impl NonContactLaw for JumpIn {
+    #[inline(always)]
+    fn respond<R: Real>(&self, overlap: R, touched: &mut R) -> NonContactResponse<R> {
+        let (force, potential) = linear_tail(self.f_a, self.kc_a, overlap);
+        let half = R::splat(0.5);
+        let before = touched.gt(half);
+        let touches = overlap.ge(R::zero());
+        // Zero reach: at δ = 0 nothing is left to remember.
+        let within_reach = overlap.gt(R::splat(-self.reach()));
+        let now = (before | touches) & within_reach;
+        *touched = R::one().keep_where(now);
+        let sudden = R::splat(0.5 * self.f_a * self.reach());
+        NonContactResponse {
+            force: force.keep_where(now),
+            potential: potential.keep_where(now),
+            dissipated: sudden.keep_where(now & !before),
+        }
+    }
+
+    fn reach(&self) -> f64 {
+        self.f_a / self.kc_a
+    }
+
+    fn stiffest(&self) -> f64 {
+        if self.kc_a.is_finite() { self.kc_a } else { 0.0 }
+    }
+
+    fn remembers_touch(&self) -> bool {
+        true
+    }
+
+    fn branch(&self, overlap: f64, touched: f64) -> (u8, &'static str) {
+        if overlap >= 0.0 {
+            (2, "in contact")
+        } else if touched > 0.5 && overlap > -self.reach() {
+            (1, "attraction")
+        } else {
+            (0, "free")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAW: JumpIn = JumpIn { f_a: 1e-4, kc_a: 50.0 };
+
+    #[test]
+    fn a_pair_that_never_touched_feels_nothing() {
+        let mut touched = 0.0;
+        assert_eq!(LAW.respond(-1e-7, &mut touched), NonContactResponse::default());
+        assert_eq!(touched, 0.0);
+    }
+
+    #[test]
+    fn the_memory_of_a_touch_lives_until_the_pair_is_out_of_reach() {
+        let mut touched = 0.0;
+        let touch = LAW.respond(0.0, &mut touched);
+        assert_eq!(touch.force, -1e-4);
+        assert_eq!(touch.dissipated, 0.5 * 1e-4 * 2e-6);
+        assert_eq!(LAW.respond(-1e-6, &mut touched).force, -5e-5);
+        assert_eq!(LAW.respond(-1e-6, &mut touched).dissipated, 0.0);
+        assert_eq!(LAW.respond(-2e-6, &mut touched).force, 0.0);
+        assert_eq!(touched, 0.0);
+        assert_eq!(LAW.respond(-1e-6, &mut touched).force, 0.0);
+    }
+
+    #[test]
+    fn zero_reach_leaves_the_force_in_contact() {
+        let law = JumpIn { f_a: 1e-4, kc_a: f64::INFINITY };
+        let mut touched = 0.0;
+        assert_eq!(law.respond(1e-9, &mut touched).force, -1e-4);
+        assert_eq!(law.respond(-1e-12, &mut touched).force, 0.0);
+        assert_eq!(touched, 0.0);
+    }
+}

@@ -1,0 +1,119 @@
+//! Attraction that also acts at a distance. One file a law; the list is at the end of this file.
+
+use pulvis_math::Real;
+
+use crate::catalogue::{InvalidParameter, Law, LawEntry, Values};
+
+mod jump_in;
+mod none;
+mod reversible;
+
+pub use jump_in::JumpIn;
+pub use none::None;
+pub use reversible::Reversible;
+
+/// What a non-contact law answers to an overlap.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NonContactResponse<R = f64> {
+    /// Force, repulsion positive [N].
+    pub force: R,
+    /// Potential energy, zero out of reach [J].
+    pub potential: R,
+    /// Energy lost since the last call because the attraction sets in suddenly [J].
+    pub dissipated: R,
+}
+
+/// An attraction that is added to the normal law, in contact and at a distance.
+pub trait NonContactLaw: Law {
+    /// The response at `overlap` δ [m], negative at a distance. `touched` is 1 where the pair has
+    /// been in contact since it last was out of reach, otherwise 0; the law updates it.
+    fn respond<R: Real>(&self, overlap: R, touched: &mut R) -> NonContactResponse<R>;
+
+    /// The largest distance −δ at which the law acts [m].
+    fn reach(&self) -> f64;
+
+    /// The steepest slope |df/dδ| [N/m], zero for a force that only jumps.
+    fn stiffest(&self) -> f64;
+
+    /// Whether the force depends on `touched`, so that a contact must remember it.
+    fn remembers_touch(&self) -> bool;
+
+    /// The name and the number of the branch at `overlap` [m].
+    fn branch(&self, overlap: f64, touched: f64) -> (u8, &'static str);
+}
+
+/// The straight branch of both laws with a reach: force −fa in contact and −kca (δ − δ_a) from
+/// δ = 0 down to δ_a = −fa/kca, with its potential. S1 (13), (14).
+#[inline(always)]
+fn linear_tail<R: Real>(adhesion_force: f64, slope: f64, overlap: R) -> (R, R) {
+    let f_a = R::splat(adhesion_force);
+    let in_contact = overlap.gt(R::zero());
+    let depth = overlap.max(R::zero());
+    if slope.is_infinite() {
+        return ((-f_a).keep_where(in_contact), -(f_a * depth));
+    }
+    // How far the tail has been entered, from 0 at δ_a to fa/kca in contact.
+    let reach = R::splat(adhesion_force / slope);
+    let entered = (overlap + reach).max(R::zero()).min(reach);
+    let force = -(R::splat(slope) * entered);
+    let potential = R::splat(-0.5 * slope) * entered * entered - f_a * depth;
+    (R::select(in_contact, -f_a, force), potential)
+}
+
+macro_rules! noncontact_laws {
+    ($($law:ident),* $(,)?) => {
+        /// Any non-contact law of the catalogue.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum NonContact {
+            $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law),)*
+        }
+
+        impl NonContact {
+            /// The descriptions of all non-contact laws.
+            pub const ENTRIES: &'static [LawEntry] = &[$($law::ENTRY),*];
+
+            /// The law called `name` with the given parameter values; `None` where there is no such law.
+            pub fn build(name: &str, values: &Values) -> Option<Result<Self, InvalidParameter>> {
+                $(if name == $law::ENTRY.name {
+                    let complete = $law::ENTRY.complete(values);
+                    return Some(complete.and_then(|values| $law::from_values(&values)).map(Self::$law));
+                })*
+                Option::None
+            }
+
+            /// The law's description.
+            pub fn entry(&self) -> &'static LawEntry {
+                match self { $(Self::$law(_) => &<$law as Law>::ENTRY,)* }
+            }
+
+            /// See [`NonContactLaw::respond`].
+            #[inline(always)]
+            pub fn respond<R: Real>(&self, overlap: R, touched: &mut R) -> NonContactResponse<R> {
+                match self { $(Self::$law(law) => law.respond(overlap, touched),)* }
+            }
+
+            /// See [`NonContactLaw::reach`].
+            pub fn reach(&self) -> f64 {
+                match self { $(Self::$law(law) => law.reach(),)* }
+            }
+
+            /// See [`NonContactLaw::stiffest`].
+            pub fn stiffest(&self) -> f64 {
+                match self { $(Self::$law(law) => law.stiffest(),)* }
+            }
+
+            /// See [`NonContactLaw::remembers_touch`].
+            pub fn remembers_touch(&self) -> bool {
+                match self { $(Self::$law(law) => law.remembers_touch(),)* }
+            }
+
+            /// See [`NonContactLaw::branch`].
+            pub fn branch(&self, overlap: f64, touched: f64) -> (u8, &'static str) {
+                match self { $(Self::$law(law) => law.branch(overlap, touched),)* }
+            }
+        }
+    };
+}
+
+// The list of non-contact laws: a new one is its file and its name here.
+noncontact_laws![None, Reversible, JumpIn];

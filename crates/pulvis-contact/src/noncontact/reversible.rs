@@ -1,0 +1,115 @@
+//! The reversible linear attraction.
+
+use pulvis_math::{Dimension, Real};
+
+use super::{NonContactLaw, NonContactResponse, linear_tail};
+use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
+
+/// Reversible attraction that grows linearly from δ_a = −f_a/k_c^a to contact and is constant in
+/// contact: f = −f_a for δ > 0, −k_c^a δ − f_a for δ_a < δ <= 0, zero beyond. Continuous and
+/// conservative; an infinite k_c^a leaves the constant force in contact alone.
+///
+/// # Source
+/// A. Singh, V. Magnanimo, S. Luding, arXiv:1503.03720 ("S1"), eq. (14).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reversible {
+    /// Adhesion force f_a, the largest attraction [N].
+    pub f_a: f64,
+    /// Slope k_c^a of the attraction at a distance [N/m].
+    pub kc_a: f64,
+}
+
+pub(super) const PARAMETERS: &[Parameter] = &[
+    Parameter::number(
+        "f_a",
+        "f_a",
+        Dimension::FORCE,
+        Range::NonNegative,
+        "adhesion force, the attraction at touch",
+    ),
+    Parameter::number(
+        "kc_a",
+        "k_c^a",
+        Dimension::STIFFNESS,
+        Range::Positive,
+        "slope of the attraction at a distance; the reach is f_a/kc_a, inf means none",
+    )
+    .or_infinite(),
+];
+
+impl Law for Reversible {
+    const ENTRY: LawEntry = LawEntry {
+        role: Role::NonContact,
+        name: "reversible",
+        summary: "linear attraction at a distance, the same on approach and on separation",
+        equations: "\
+f   = −f_a                       for δ > 0
+f   = −k_c^a δ − f_a             for δ_a < δ ≤ 0,  δ_a = −f_a/k_c^a
+f   = 0                          for δ ≤ δ_a",
+        source: "Singh, Magnanimo & Luding, arXiv:1503.03720, eq. 14",
+        parameters: PARAMETERS,
+        memory: &[],
+        closed_form: "pull-in and pull-off efficiencies ε_i, ε_o in pulvis_contact::theory (S1 eqs. 17, 18)",
+        example: "law = \"reversible\"\nf_a = \"1e-5 N\"\nkc_a = \"50 N/m\"",
+    };
+
+    fn from_values(values: &Values) -> Result<Self, InvalidParameter> {
+        Ok(Self { f_a: values.number("f_a")?, kc_a: values.number("kc_a")? })
+    }
+}
+
+impl NonContactLaw for Reversible {
+    #[inline(always)]
+    fn respond<R: Real>(&self, overlap: R, _touched: &mut R) -> NonContactResponse<R> {
+        let (force, potential) = linear_tail(self.f_a, self.kc_a, overlap);
+        NonContactResponse { force, potential, dissipated: R::zero() }
+    }
+
+    fn reach(&self) -> f64 {
+        self.f_a / self.kc_a
+    }
+
+    fn stiffest(&self) -> f64 {
+        if self.kc_a.is_finite() { self.kc_a } else { 0.0 }
+    }
+
+    fn remembers_touch(&self) -> bool {
+        false
+    }
+
+    fn branch(&self, overlap: f64, _touched: f64) -> (u8, &'static str) {
+        if overlap > 0.0 {
+            (2, "in contact")
+        } else if overlap > -self.reach() {
+            (1, "attraction")
+        } else {
+            (0, "out of reach")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_force_is_minus_the_slope_of_the_potential() {
+        let law = Reversible { f_a: 1e-4, kc_a: 50.0 };
+        let h = 1e-10;
+        for overlap in [-2.5e-6, -1.9e-6, -0.3e-6, 0.4e-6, 3e-6] {
+            let at = |overlap: f64| law.respond(overlap, &mut 0.0);
+            let slope = (at(overlap + h).potential - at(overlap - h).potential) / (2.0 * h);
+            // Central differences of a parabola are exact up to round-off: 1e-16 fa²/kca / h.
+            assert!((at(overlap).force - -slope * -1.0).abs() < 1e-9, "at {overlap}");
+        }
+    }
+
+    #[test]
+    fn the_force_is_continuous_at_touch_and_at_the_end_of_its_reach() {
+        let law = Reversible { f_a: 1e-4, kc_a: 50.0 };
+        let force = |overlap: f64| law.respond(overlap, &mut 0.0).force;
+        assert_eq!(force(-law.reach()), 0.0);
+        assert_eq!(force(0.0), -1e-4);
+        assert_eq!(force(1e-9), -1e-4);
+    }
+}

@@ -1,0 +1,72 @@
+//! Dashpots along the line of centres, active while the bodies overlap. One file a law; the list
+//! is at the end of this file.
+
+use pulvis_math::Real;
+
+use crate::catalogue::{InvalidParameter, Law, LawEntry, Values};
+use crate::normal::NormalResponse;
+use crate::pair::Pair;
+
+mod constant;
+mod hardening;
+mod none;
+mod overlap_power;
+mod restitution;
+
+pub use constant::Constant;
+pub use hardening::Hardening;
+pub use none::None;
+pub use overlap_power::OverlapPower;
+pub use restitution::Restitution;
+
+/// A dashpot: force γ dδ/dt while δ > 0.
+pub trait ViscousLaw: Law {
+    /// The coefficient γ [kg/s] at `overlap` δ > 0 [m], given what the normal law answered there.
+    fn coefficient<R: Real>(&self, pair: &Pair<R>, overlap: R, normal: &NormalResponse<R>) -> R;
+
+    /// The largest coefficient [kg/s] that the pair can meet up to δ = `overlap_scale` [m].
+    fn largest_coefficient(&self, pair: &Pair<f64>) -> f64;
+}
+
+macro_rules! viscous_laws {
+    ($($law:ident),* $(,)?) => {
+        /// Any viscous law of the catalogue.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum Viscosity {
+            $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law),)*
+        }
+
+        impl Viscosity {
+            /// The descriptions of all viscous laws.
+            pub const ENTRIES: &'static [LawEntry] = &[$($law::ENTRY),*];
+
+            /// The law called `name` with the given parameter values; `None` where there is no such law.
+            pub fn build(name: &str, values: &Values) -> Option<Result<Self, InvalidParameter>> {
+                $(if name == $law::ENTRY.name {
+                    let complete = $law::ENTRY.complete(values);
+                    return Some(complete.and_then(|values| $law::from_values(&values)).map(Self::$law));
+                })*
+                Option::None
+            }
+
+            /// The law's description.
+            pub fn entry(&self) -> &'static LawEntry {
+                match self { $(Self::$law(_) => &<$law as Law>::ENTRY,)* }
+            }
+
+            /// See [`ViscousLaw::coefficient`].
+            #[inline(always)]
+            pub fn coefficient<R: Real>(&self, pair: &Pair<R>, overlap: R, normal: &NormalResponse<R>) -> R {
+                match self { $(Self::$law(law) => law.coefficient(pair, overlap, normal),)* }
+            }
+
+            /// See [`ViscousLaw::largest_coefficient`].
+            pub fn largest_coefficient(&self, pair: &Pair<f64>) -> f64 {
+                match self { $(Self::$law(law) => law.largest_coefficient(pair),)* }
+            }
+        }
+    };
+}
+
+// The list of viscous laws: a new one is its file and its name here.
+viscous_laws![None, Constant, Hardening, OverlapPower, Restitution];
