@@ -1,11 +1,13 @@
 //! One scenario file: loaded, parsed, and read with all its mistakes collected.
 
+use crate::context::{Context, Location, Reported};
 use crate::error::{InputError, InputErrors};
 use crate::load::read_source;
 use crate::overrides::{Replacement, replace};
 use crate::problem::Problem;
-use crate::reader::{Context, Location, Reported, TableReader};
+use crate::reader::TableReader;
 use crate::source::Source;
+use crate::syntax::syntax_errors;
 use crate::value::Table;
 use std::path::Path;
 use std::sync::Arc;
@@ -90,26 +92,4 @@ impl Document {
         replace(&mut root, &self.source, path, value.into())?;
         Ok(Self { source: Arc::clone(&self.source), root })
     }
-}
-
-/// One error a line: after the first one, the parser often stumbles over the rest of the same line.
-fn syntax_errors(source: &Source, errors: &[toml::de::Error]) -> Vec<InputError> {
-    let mut lines = Vec::new();
-    let mut kept = Vec::new();
-    for error in errors {
-        let span = error.span().unwrap_or(source.text.len()..source.text.len());
-        let place = source.place(&span);
-        if lines.contains(&place.line) {
-            continue;
-        }
-        lines.push(place.line);
-        let key = source.text.get(span).unwrap_or_default();
-        let message = match error.message() {
-            "duplicate key" => format!("the key `{key}` stands here a second time"),
-            other => other.to_owned(),
-        };
-        let problem = Problem::Syntax { message };
-        kept.push(InputError { place: Some(place), ..InputError::of_file(&source.name, problem) });
-    }
-    kept
 }

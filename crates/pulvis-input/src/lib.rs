@@ -2,8 +2,10 @@
 //!
 //! From the bottom up:
 //! - [`unit`], [`quantity`]: `"1.1 mm"` to 0.0011, checked against a [`pulvis_math::Dimension`];
-//! - [`document`]: one TOML file whose every key and value remembers its place, and replaced values;
-//! - [`reader`], [`shape`]: tables are walked key by key, and *all* mistakes are collected;
+//! - [`document`]: one TOML file whose every key and value remembers its place; [`overrides`]
+//!   replace values;
+//! - [`reader`], [`value_reader`], [`shape`], [`list`]: tables are walked key by key, and *all*
+//!   mistakes are collected; [`parameters`] does so for the laws of the catalogue;
 //! - [`error`], [`problem`]: where it is wrong, what was found, what was expected, what to do.
 //!
 //! # Example
@@ -21,12 +23,14 @@
 //! # Ok::<(), pulvis_input::InputErrors>(())
 //! ```
 
+pub mod context;
 mod decimal;
 pub mod document;
 pub mod error;
-mod list;
+pub mod list;
 mod load;
-mod overrides;
+pub mod overrides;
+pub mod parameters;
 pub mod problem;
 pub mod quantity;
 pub mod reader;
@@ -34,15 +38,20 @@ mod rule;
 pub mod shape;
 mod similar;
 mod source;
+mod syntax;
 pub mod unit;
 mod value;
+pub mod value_reader;
 
+pub use context::{Location, Reported};
 pub use document::Document;
 pub use error::{InputError, InputErrors, Place};
 pub use list::{List, Vector};
-pub use overrides::Replacement;
+pub use overrides::{Copied, Replacement};
+pub use parameters::{read_parameters, refuse_parameter};
 pub use problem::Problem;
 pub use pulvis_math::Dimension;
 pub use quantity::{QuantityError, QuantityRule, parse_quantity};
-pub use reader::{Location, Reported, TableReader, ValueReader};
+pub use reader::TableReader;
 pub use shape::{Boolean, Choice, Integer, Name, Shape, Text};
+pub use value_reader::ValueReader;

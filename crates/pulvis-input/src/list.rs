@@ -1,9 +1,10 @@
 //! Lists and vectors of values.
 
+use crate::context::Reported;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
-use crate::reader::{Reported, ValueReader};
 use crate::shape::Shape;
+use crate::value_reader::ValueReader;
 
 /// A list whose items all have one shape.
 #[derive(Clone, Copy, Debug)]

@@ -20,7 +20,13 @@ pub enum Replacement {
     Integer(i64),
     /// True or false.
     Boolean(bool),
+    /// Another value of the same file, with its place: see [`crate::ValueReader::replacement`].
+    Copied(Copied),
 }
+
+/// A value of a file, with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Copied(pub(crate) Node);
 
 impl Replacement {
     /// What a user typed after `key=`: a number or `true` as such, everything else as a text.
@@ -39,14 +45,20 @@ impl Replacement {
         }
     }
 
-    fn into_value(self) -> Value {
-        match self {
+    /// Puts the value in the place of another one.
+    fn apply(self, node: &mut Node) {
+        node.value = match self {
             Self::Si(value) => Value::Si(value),
             Self::Text(text) => Value::Text(text),
             Self::Number(value) => Value::Number(value.to_string()),
             Self::Integer(value) => Value::Integer(value.to_string()),
             Self::Boolean(boolean) => Value::Boolean(boolean),
-        }
+            Self::Copied(Copied(other)) => {
+                *node = other;
+                return;
+            }
+        };
+        node.replaced = true;
     }
 }
 
@@ -68,10 +80,13 @@ pub(crate) fn replace(
     let Some((Step::Key(first), rest)) = steps.split_first() else {
         return Err(unreadable().into());
     };
-    let lost = |(way, place, problem): Lost| InputError {
-        place: place.map(|span| source.place(&span)),
-        key: way,
-        ..InputError::of_file(&source.name, problem)
+    let lost = |lost: Lost| {
+        let (way, place, problem) = *lost;
+        InputError {
+            place: place.map(|span| source.place(&span)),
+            key: way,
+            ..InputError::of_file(&source.name, problem)
+        }
     };
     let mut way = String::new();
     let mut node = enter(root, first, &mut way, None).map_err(lost)?;
@@ -84,15 +99,14 @@ pub(crate) fn replace(
         _ => None,
     };
     if let Some(found) = found {
-        return Err(lost((way, Some(node.span.clone()), Problem::NotReplaceable { found })).into());
+        return Err(lost(Box::new((way, Some(node.span.clone()), Problem::NotReplaceable { found }))).into());
     }
-    node.value = value.into_value();
-    node.replaced = true;
+    value.apply(node);
     Ok(())
 }
 
 /// Where the path was lost: the way so far, its place, and why.
-type Lost = (String, Option<Range<usize>>, Problem);
+type Lost = Box<(String, Option<Range<usize>>, Problem)>;
 
 fn enter<'t>(
     table: &'t mut Table,
@@ -106,12 +120,16 @@ fn enter<'t>(
             key: key.to_owned(),
             similar: similar(key, known).map(str::to_owned),
         };
-        return Err((way.clone(), place, problem));
+        return Err(Box::new((way.clone(), place, problem)));
     }
     *way = join_path(way, key);
     match table.entries.get_mut(key) {
         Some(entry) => Ok(&mut entry.node),
-        None => Err((way.clone(), place, Problem::NothingToReplace { key: key.to_owned(), similar: None })),
+        None => Err(Box::new((
+            way.clone(),
+            place,
+            Problem::NothingToReplace { key: key.to_owned(), similar: None },
+        ))),
     }
 }
 
@@ -122,14 +140,14 @@ fn descend<'t>(node: &'t mut Node, step: &Step, way: &mut String) -> Result<&'t 
         (Value::List(items), Step::Index(index)) if *index < items.len() => {
             way.push_str(&format!("[{index}]"));
             let missing = Problem::NothingToReplace { key: index.to_string(), similar: None };
-            items.get_mut(*index).ok_or_else(|| (way.clone(), place, missing))
+            items.get_mut(*index).ok_or_else(|| Box::new((way.clone(), place, missing)))
         }
         (_, step) => {
             let key = match step {
                 Step::Key(key) => key.clone(),
                 Step::Index(index) => format!("[{index}]"),
             };
-            Err((way.clone(), place, Problem::NothingToReplace { key, similar: None }))
+            Err(Box::new((way.clone(), place, Problem::NothingToReplace { key, similar: None })))
         }
     }
 }

@@ -43,8 +43,14 @@ pub enum Problem {
         /// The parser's own words.
         message: String,
     },
+    /// A key or table that stands in the file a second time.
+    #[error("`{key}` stands here a second time; expected each key and table once")]
+    Duplicate {
+        /// The key.
+        key: String,
+    },
     /// A key that nobody asked for.
-    #[error("unknown key{}", or_similar(.similar))]
+    #[error("unknown key{}", or_similar(.similar.as_deref()))]
     UnknownKey {
         /// The known key that was probably meant.
         similar: Option<String>,
@@ -69,7 +75,7 @@ pub enum Problem {
     #[error(transparent)]
     Quantity(#[from] QuantityError),
     /// A name that is not in the list.
-    #[error("found \"{found}\"; expected {}{}", one_of(.choices), or_similar(.similar))]
+    #[error("found \"{found}\"; expected {}{}", one_of(.choices), or_similar(.similar.as_deref()))]
     UnknownChoice {
         /// The name as written.
         found: String,
@@ -106,7 +112,7 @@ pub enum Problem {
     #[error(transparent)]
     Refused(Box<dyn Error + Send + Sync>),
     /// A path of a replacement that leads nowhere.
-    #[error("there is no key `{key}` to replace{}", or_similar(.similar))]
+    #[error("there is no key `{key}` to replace{}", or_similar(.similar.as_deref()))]
     NothingToReplace {
         /// The step that is missing.
         key: String,
@@ -130,8 +136,9 @@ pub enum Problem {
     Unchecked,
 }
 
-fn or_similar(similar: &Option<String>) -> String {
-    similar.as_ref().map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
+/// `; did you mean …?` where there is something to suggest.
+pub(crate) fn or_similar(similar: Option<&str>) -> String {
+    similar.map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
 }
 
 /// `"linear" or "square-root"`.

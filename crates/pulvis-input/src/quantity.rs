@@ -1,6 +1,7 @@
 //! Quantities as text: a number with its unit, `"1.1 mm"`, checked and turned into SI.
 
 use crate::decimal::{split_number, split_special};
+use crate::problem::or_similar;
 use crate::rule::{describe, with_article};
 use crate::unit::{Unit, UnitError};
 
@@ -24,7 +25,7 @@ pub enum QuantityError {
     #[allow(missing_docs)]
     NoNumber { found: String, expected: Dimension, example: String },
     /// A unit that cannot be read.
-    #[error("{found}: {reason}; expected {}", describe(*.expected))]
+    #[error("{found}: {reason}; expected {}{}", describe(*.expected), or_similar(.reason.similar()))]
     #[allow(missing_docs)]
     Unit { found: String, reason: UnitError, expected: Dimension },
     /// `nan`.

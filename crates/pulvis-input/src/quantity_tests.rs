@@ -77,7 +77,7 @@ fn a_message_says_what_was_found_what_was_expected_and_how_to_write_it() {
     );
     assert_eq!(
         message("3 kn", Dimension::FORCE),
-        "\"3 kn\": unknown unit `kn`, did you mean `kN`?; expected a force [N]"
+        "\"3 kn\": unknown unit `kn`; expected a force [N]; did you mean `kN`?"
     );
     assert_eq!(
         message("large", Dimension::FORCE),

@@ -1,9 +1,10 @@
 //! What a value can be: quantity, whole number, text, choice, list, vector.
 
+use crate::context::Reported;
 use crate::problem::{Problem, one_of};
 use crate::quantity::{QuantityRule, check_si, parse_bare, parse_quantity};
-use crate::reader::{Reported, ValueReader};
 use crate::value::Value;
+use crate::value_reader::ValueReader;
 use pulvis_math::Dimension;
 
 /// A kind of value that a key can demand.

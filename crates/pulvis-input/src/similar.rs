@@ -2,7 +2,7 @@
 
 /// The candidate that `word` is most likely a misspelling of, if any is close enough.
 ///
-/// A slip, not a guess: one edit in three letters; upper case, `-` and `_` count as equal.
+/// A slip, not a guess: one edit in three letters; upper case, `-` and `_` do not count.
 pub(crate) fn similar<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let wanted = plain(word);
     candidates
@@ -10,14 +10,14 @@ pub(crate) fn similar<'c>(word: &str, candidates: impl IntoIterator<Item = &'c s
         .map(|candidate| (strsim::damerau_levenshtein(&wanted, &plain(candidate)), candidate))
         .filter(|(edits, candidate)| {
             let longer = wanted.chars().count().max(candidate.chars().count());
-            *edits <= (longer / 3).max(1) && *edits < longer
+            *edits <= longer / 3
         })
         .min_by_key(|(edits, _)| *edits)
         .map(|(_, candidate)| candidate)
 }
 
 fn plain(word: &str) -> String {
-    word.to_lowercase().replace('-', "_")
+    word.to_lowercase().replace(['-', '_'], "")
 }
 
 #[cfg(test)]
@@ -32,7 +32,8 @@ mod tests {
     }
 
     #[test]
-    fn a_single_letter_is_no_misspelling_of_another() {
-        assert_eq!(similar("x", ["y"]), None);
+    fn a_short_symbol_is_no_misspelling_of_another() {
+        assert_eq!(similar("kp", ["k1", "kc"]), None);
+        assert_eq!(similar("k_1", ["k1", "kc"]), Some("k1"));
     }
 }

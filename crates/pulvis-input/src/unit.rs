@@ -23,7 +23,7 @@ pub struct Unit {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum UnitError {
     /// A symbol that stands for no unit.
-    #[error("unknown unit `{symbol}`{}", did_you_mean(.similar))]
+    #[error("unknown unit `{symbol}`")]
     Unknown {
         /// The symbol as written.
         symbol: String,
@@ -50,8 +50,14 @@ pub enum UnitError {
     },
 }
 
-fn did_you_mean(similar: &Option<String>) -> String {
-    similar.as_ref().map(|symbol| format!(", did you mean `{symbol}`?")).unwrap_or_default()
+impl UnitError {
+    /// The symbol that was probably meant.
+    pub fn similar(&self) -> Option<&str> {
+        match self {
+            Self::Unknown { similar, .. } => similar.as_deref(),
+            _ => None,
+        }
+    }
 }
 
 /// SI prefixes, the usual ones of granular matter first: suggestions are tried in this order.

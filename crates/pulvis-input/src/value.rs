@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::de::{DeInteger, DeTable, DeValue};
 
 /// A value and the bytes of the file that it stands in.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Node {
     pub(crate) span: Range<usize>,
     pub(crate) value: Value,
@@ -14,7 +14,7 @@ pub(crate) struct Node {
 }
 
 /// What a scenario file can hold. Numbers stay text until their unit is known.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Value {
     Text(String),
     /// Decimal digits of a whole number.
@@ -30,13 +30,13 @@ pub(crate) enum Value {
 }
 
 /// A table: keys with their own places.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Table {
     pub(crate) entries: BTreeMap<String, Entry>,
 }
 
 /// One key of a table.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Entry {
     pub(crate) key_span: Range<usize>,
     pub(crate) node: Node,
