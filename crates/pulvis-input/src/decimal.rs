@@ -6,7 +6,7 @@ use crate::unit::Unit;
 pub(crate) struct Decimal<'t> {
     /// Sign, digits and point.
     pub(crate) mantissa: &'t str,
-    /// Power of ten [1].
+    /// Power of ten.
     exponent: i64,
 }
 

@@ -113,7 +113,7 @@ impl InputErrors {
         &self.errors
     }
 
-    /// Number of further mistakes that are not shown [1].
+    /// Number of further mistakes that are not shown.
     pub fn omitted(&self) -> usize {
         self.omitted
     }

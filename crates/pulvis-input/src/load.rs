@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Scenarios are kilobytes; whoever names a result file by mistake should hear it at once [MiB].
+/// Scenarios are kilobytes; whoever names a result file by mistake should hear it at once in MiB.
 const LARGEST: u64 = 16;
 
 /// Reads a whole file as text.

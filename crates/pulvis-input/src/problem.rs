@@ -25,7 +25,7 @@ pub enum Problem {
     /// More bytes than any scenario has.
     #[error("is larger than {limit} MiB; expected a scenario file")]
     TooLarge {
-        /// Largest size accepted [MiB].
+        /// Largest size accepted in MiB.
         limit: u64,
     },
     /// Bytes that are no text.
@@ -95,7 +95,7 @@ pub enum Problem {
     /// A list of the wrong length.
     #[error("found {found} value{}; expected {expected}", if *.found == 1 { "" } else { "s" })]
     WrongLength {
-        /// Number of values in the list [1].
+        /// Number of values in the list.
         found: usize,
         /// What was expected, in words.
         expected: String,

@@ -11,11 +11,11 @@ use thiserror::Error;
 pub struct Unit {
     /// Dimension in kilogram, metre, second.
     pub dimension: Dimension,
-    /// Power of ten of the factor to SI [1].
+    /// Power of ten of the factor to SI.
     pub decimal: i32,
-    /// What remains of the factor above the line, for example 60 for `min` [1].
+    /// What remains of the factor above the line, for example 60 for `min`.
     pub numerator: f64,
-    /// What remains of the factor below the line, for example 180 for `deg` [1].
+    /// What remains of the factor below the line, for example 180 for `deg`.
     pub denominator: f64,
 }
 
