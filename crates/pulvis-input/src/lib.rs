@@ -1,7 +1,7 @@
 //! Scenario files of Pulvis: text with units in, checked SI values out.
 //!
 //! From the bottom up:
-//! - [`unit`], [`quantity`]: `"1.1 mm"` to 0.0011, checked against a [`pulvis_math::Dimension`];
+//! - [`mod@unit`], [`quantity`]: `"1.1 mm"` to 0.0011, checked against a [`pulvis_math::Dimension`];
 //! - [`document`]: one TOML file whose every key and value remembers its place; [`overrides`]
 //!   replace values;
 //! - [`reader`], [`value_reader`], [`shape`], [`list`]: tables are walked key by key, and *all*
