@@ -1,4 +1,5 @@
-//! The closed forms against numbers printed to ten or more digits in the specification, and against the papers' limits.
+//! The closed forms against numbers printed to ten or more digits in the specification, and against the
+//! papers' limits.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 

@@ -1,4 +1,5 @@
-//! What must hold for every parameter set: bounds, continuity, and agreement between formulas found on different ways.
+//! What must hold for every parameter set: bounds, continuity, and agreement between formulas found on
+//! different ways.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -27,7 +28,8 @@ fn plain_parameters() -> impl Strategy<Value = LudingParameters> {
     })
 }
 
-/// Pairs with an adhesive force: `k1 phi_f a12` times a small number, zero range or not, reversible or jump-in.
+/// Pairs with an adhesive force: `k1 phi_f a12` times a small number, zero range or not, reversible or
+/// jump-in.
 fn adhesive_parameters() -> impl Strategy<Value = LudingParameters> {
     let range = prop_oneof![Just(f64::INFINITY), magnitude(-2.0, 2.0)];
     (plain_parameters(), magnitude(-6.0, 0.5), range, any::<bool>()).prop_map(
@@ -77,18 +79,29 @@ proptest! {
     }
 
     #[test]
-    fn the_restitution_is_continuous_across_the_plastic_limit(p in adhesive_parameters()) {
+    fn the_restitution_is_continuous_across_the_plastic_limit(p in adhesive_parameters(), force in 0.0..0.4_f64) {
+        // Pairs that have a limit, and reach it not by adhesion alone.
+        let interpolation =
+            if p.interpolation == Interpolation::Constant { Interpolation::Linear } else { p.interpolation };
+        let kp = p.kp.max(1.000_1 * p.k1);
+        let p = LudingParameters { interpolation, kp, ..p };
+        let dp = LudingPair::new(p).unwrap().dp();
+        let p = LudingParameters { adhesion_force: force * p.k1 * dp, ..p };
         let pair = LudingPair::new(p).unwrap();
-        let limit = pair.v_p().filter(|v| v.is_finite() && *v > pair.v_fa());
-        prop_assume!(limit.is_some());
+        let limit = pair.v_p();
+        prop_assert!(limit.is_some());
         let outside = |touch: f64| match p.noncontact {
             NonContact::Reversible => (touch * touch - pair.v_fa().powi(2)).sqrt(),
             _ => touch,
         };
         let (below, above) = (outside(limit.unwrap() * (1.0 - 1e-11)), outside(limit.unwrap() * (1.0 + 1e-11)));
-        prop_assume!(below > 0.01 * limit.unwrap());
+        // Slower than that, the whole collision is the adhesive well and e^2 has no finite slope in it.
+        if below < 0.01 * limit.unwrap() {
+            return Ok(());
+        }
         let (before, after) = (pair.restitution(below), pair.restitution(above));
-        // e^2 is continuous and changes by its slope times the step: slopes stay below 1e4 for below > v_p/100.
+        // e^2 is continuous and changes by its slope times the step: slopes stay below 1e4 for below >
+        // v_p/100.
         prop_assert!((before.value.powi(2) - after.value.powi(2)).abs() < 1e-6, "{before:?} {after:?}");
         prop_assert!((before.overlap_max / after.overlap_max - 1.0).abs() < 1e-6, "{before:?} {after:?}");
     }
@@ -125,7 +138,8 @@ proptest! {
         let force = 1e-12 * p.k1 * p.phi_f * p.harmonic_radius;
         let weak = LudingPair::new(p.with_adhesion(rule, force, p.k1)).unwrap();
         let (without, with) = (plain.restitution(velocity), weak.restitution(velocity));
-        // E_f shifts by f_a D, a share 2e-12/relative of E_i (and eta times that above the limit), seen in e^2.
+        // E_f shifts by f_a D, a share 2e-12/relative of E_i (and eta times that above the limit), seen in
+        // e^2.
         prop_assert!((without.value.powi(2) - with.value.powi(2)).abs() < 1e-8, "{without:?} {with:?}");
         prop_assert!((without.overlap_max / with.overlap_max - 1.0).abs() < 1e-8);
         let zero = LudingPair::new(p.with_adhesion(rule, 0.0, p.k1)).unwrap();
@@ -135,16 +149,17 @@ proptest! {
 
     #[test]
     fn the_printed_formulas_agree_with_the_pair(p in plain_parameters(), chi in magnitude(-3.0, 2.0)) {
-        let p = p.with_interpolation(Interpolation::Linear);
+        // A pair with kp = k1 has no chi; the softest that has one takes its place.
+        let p = LudingParameters { kp: p.kp.max(1.000_1 * p.k1), interpolation: Interpolation::Linear, ..p };
         let pair = LudingPair::new(p).unwrap();
-        prop_assume!(pair.eta() > 0.0);
         let (eta, beta) = (pair.eta(), pair.beta());
         let result = pair.restitution(chi * pair.v_p0());
         let printed = dimensionless::restitution(eta, beta, chi);
         prop_assert!((result.value.powi(2) - printed * printed).abs() < 1e-12, "{result:?} {printed}");
         let overlap = sticking::sticking_overlap(eta, beta, chi);
         if let (Some(overlap), Regime::Stick(stage)) = (overlap, result.regime) {
-            // The stop is the root of an energy: round-off 1e-15 of it is 3e-8 of the overlap next to the threshold.
+            // The stop is the root of an energy: round-off 1e-15 of it is 3e-8 of the overlap next to the
+            // threshold.
             let error = overlap.powi(2) - (result.overlap_end / pair.dp()).powi(2);
             prop_assert!(error.abs() < 1e-12 * (1.0 + chi * chi * (1.0 + 1.0 / beta)), "{overlap} {result:?}");
             prop_assert!(stage != Stage::NonContact);
@@ -165,18 +180,20 @@ proptest! {
         let overlap_scale = if pair.dp().is_finite() { pair.dp() } else { pair.limit_force_free_overlap() };
         let history = scaled * overlap_scale;
         match pair.history_on_tensile_branch(pair.delta_min(history)) {
-            // z - y is a small difference where s exceeds 1 + beta by far: the history is a plain ratio then.
+            // y -> X is monotone and its inverse well conditioned; some ten roundings.
             Some(found) => prop_assert!((found / history - 1.0).abs() < 1e-12, "{found} {history}"),
             None => prop_assert_eq!(pair.eta(), 0.0),
         }
     }
 
     #[test]
-    fn the_trajectory_keeps_the_energy_on_every_branch_and_joins_up(
+    fn the_motion_by_forces_loses_the_energy_that_the_balance_says(
         p in adhesive_parameters(), relative in magnitude(-2.0, 1.0),
     ) {
         let pair = LudingPair::new(p).unwrap();
-        let touch = relative * velocity_scale(&pair);
+        let velocity = relative * velocity_scale(&pair);
+        let result = pair.restitution(velocity);
+        let touch = pair.touch_velocity(velocity);
         let motion = pair.trajectory(touch);
         let end = if motion.end().is_finite() {
             motion.end()
@@ -187,11 +204,23 @@ proptest! {
         let scale = 0.5 * p.reduced_mass * touch * touch + f_a * pair.overlap_max(touch);
         let (mut last, samples) = (f64::INFINITY, 200);
         for sample in 0..=samples {
-            let state = motion.at(end * f64::from(sample) / f64::from(samples)).unwrap();
+            let state = motion.at(end * (f64::from(sample) / f64::from(samples))).unwrap();
             // What remains if the pair unloaded from here: it may only fall.
             let remaining = state.kinetic_energy + state.available_energy - f_a * state.overlap;
             prop_assert!(remaining <= last + 1e-9 * scale, "{state:?}");
             last = remaining;
+        }
+        // The phases know forces and times only; that their ends fit the energies of the restitution is a
+        // check of both.
+        let touch_loss = if p.noncontact == NonContact::JumpIn { pair.noncontact_energy() } else { 0.0 };
+        let stuck = matches!(result.regime, Regime::Stick(Stage::Unloading | Stage::Tensile));
+        if stuck == motion.end().is_infinite() {
+            // A weak tensile branch may take hundreds of units of time; by then the pair swings.
+            let late = motion.end().min(1e6 * (p.reduced_mass / p.k1).sqrt());
+            let state = motion.at(late).unwrap();
+            let remaining = state.kinetic_energy + state.available_energy - f_a * state.overlap;
+            let lost = 0.5 * p.reduced_mass * touch * touch - remaining + touch_loss;
+            prop_assert!((lost - result.energy_dissipated).abs() < 1e-9 * scale, "{lost} {result:?}");
         }
         let balance = pair.contact_duration(touch);
         if let Some(duration) = balance {
@@ -213,7 +242,8 @@ proptest! {
     }
 }
 
-/// A small-step integration of the loading part with `f_a`, then of the whole, on nothing but the straight lines.
+/// A small-step integration of the loading part with `f_a`, then of the whole, on nothing but the straight
+/// lines.
 #[test]
 fn the_duration_with_adhesive_force_agrees_with_a_small_step_integration() {
     let base = LudingParameters::new(1e2, 5e2, 1e2, 0.1, 5.575e-6, 1.1e-3);
@@ -241,7 +271,8 @@ fn the_duration_with_adhesive_force_agrees_with_a_small_step_integration() {
             velocity += 0.5 * dt * acceleration;
             time += dt;
         }
-        // Second order in the step with corners of the force: (w dt)^2 of about 1e-9, and the linear last step.
+        // Second order in the step with corners of the force: (w dt)^2 of about 1e-9, and the linear last
+        // step.
         assert!((time / duration - 1.0).abs() < 1e-7, "{time} {duration} for {p:?}");
     }
 }

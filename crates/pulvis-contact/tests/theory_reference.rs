@@ -1,4 +1,5 @@
-//! The closed forms against values that an independent program integrated exactly, branch by branch, with 30 digits.
+//! The closed forms against values that an independent program integrated exactly, branch by branch, with 30
+//! digits.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -117,7 +118,8 @@ fn closed_form(row: &Row) -> Option<f64> {
     })
 }
 
-/// These rows hold the tuned parameters; the untuned pair is the reference pair with phi_f divided by the ratio.
+/// These rows hold the tuned parameters; the untuned pair is the reference pair with phi_f divided by the
+/// ratio.
 fn tuned_stiffness(tuned: &LudingPair, ratio: f64) -> f64 {
     let phi_f = tuned.parameters().phi_f / ratio;
     let reference = LudingPair::new(LudingParameters { kp: 500.0, phi_f, ..*tuned.parameters() }).unwrap();
@@ -126,11 +128,12 @@ fn tuned_stiffness(tuned: &LudingPair, ratio: f64) -> f64 {
     again.k2(0.6 * reference.dp()) / tuned.parameters().k1
 }
 
-/// Allowed deviation: 1e-12, absolute for these quantities of order one, relative where they are small or have a unit.
+/// Allowed deviation: 1e-12, absolute for these quantities of order one, relative where they are small or
+/// have a unit.
 ///
-/// The inputs are rounded to 1e-16, and some hundred roundings follow. Two quantities amplify that by their own nature:
-/// `e` is the root of a small difference close to a threshold (`de = d(e^2)/(2 e)`), and a force or energy that passes
-/// through zero carries the round-off of its scale, which is 1.
+/// The inputs are rounded to 1e-16, and some hundred roundings follow. Two quantities amplify that by their
+/// own nature: `e` is the root of a small difference close to a threshold (`de = d(e^2)/(2 e)`), and a force
+/// or energy that passes through zero carries the round-off of its scale, which is 1.
 fn tolerance(quantity: &str, value: f64) -> f64 {
     match quantity {
         "e" | "e_n" => 1e-12 * value + 1e-15 / value.max(1e-3),
@@ -167,7 +170,8 @@ const CHECKED: [(&str, usize); 22] = [
     ("v_crit_c", 7),
 ];
 
-/// Rows that no closed form covers: the viscous collisions, and the quasi-static loop of Fig. 10, which is the law itself.
+/// Rows that no closed form covers: the viscous collisions, and the quasi-static loop of Fig. 10, which is
+/// the law itself.
 const LEFT: [(&str, usize); 7] = [
     ("delta_max_over_dp", 3),
     ("delta_over_dp", 67),

@@ -3,7 +3,7 @@
 use super::parameters::{Interpolation, LudingPair};
 
 impl LudingPair {
-    /// Excess `s = (k2(D) - k1)/k1` of the unloading stiffness after the history overlap `D` [m].
+    /// Excess `s = (k2(D) - k1)/k1` of the unloading stiffness after the history overlap `D` \[m\].
     ///
     /// Linear: `s = eta D/dp`, written without `dp` so that `kp = k1` needs no division by zero [-].
     #[must_use]
@@ -19,7 +19,7 @@ impl LudingPair {
         }
     }
 
-    /// Unloading stiffness after the history overlap `D` [m]: S1 (9), (D.1), S0 (7) [N/m].
+    /// Unloading stiffness after the history overlap `D` \[m\]: S1 (9), (D.1), S0 (7) [N/m].
     #[must_use]
     pub fn k2(&self, history: f64) -> f64 {
         // Above the limit the constant itself, so that k2(dp) = kp holds without round-off.
@@ -29,21 +29,21 @@ impl LudingPair {
         self.p.k1 * (1.0 + self.stiffness_excess(history))
     }
 
-    /// Force-free overlap `delta_0(D) = (1 - k1/k2) D` of the unloading branch without `f_a`, S1 (7) [m].
+    /// Force-free overlap `delta_0(D) = (1 - k1/k2) D` of the unloading branch without `f_a`, S1 (7) \[m\].
     #[must_use]
     pub fn delta_0(&self, history: f64) -> f64 {
         let s = self.stiffness_excess(history);
         s / (1.0 + s) * history
     }
 
-    /// Overlap of the largest tension, `delta_min(D) = (k2 - k1)/(k2 + kc) D`, S1 after (20d) [m].
+    /// Overlap of the largest tension, `delta_min(D) = (k2 - k1)/(k2 + kc) D`, S1 after (20d) \[m\].
     #[must_use]
     pub fn delta_min(&self, history: f64) -> f64 {
         let s = self.stiffness_excess(history);
         s / (1.0 + self.beta() + s) * history
     }
 
-    /// Hysteretic force at the tensile extremum, `-kc delta_min(D)` (without `f_a`) [N].
+    /// Hysteretic force at the tensile extremum, `-kc delta_min(D)` (without `f_a`) \[N\].
     #[must_use]
     pub fn pull_off_force(&self, history: f64) -> f64 {
         -self.p.kc * self.delta_min(history)
@@ -51,9 +51,10 @@ impl LudingPair {
 
     /// History overlap `D` whose unloading branch passes through the point `(delta, -kc delta)`.
     ///
-    /// The inverse of [`Self::delta_min`], which a contact needs that turns round on the tensile branch. Linear: root
-    /// of a square, square root: the positive root of `z^3 - y z - y (1 + beta)/eta = 0` with `z = sqrt(D/dp)`,
-    /// `y = delta/dp`, by Cardano and one Newton step. `None` without tensile branch (`kp = k1`) [m].
+    /// The inverse of [`Self::delta_min`], which a contact needs that turns round on the tensile branch.
+    /// Linear: root of a square, square root: the positive root of `z^3 - y z - y (1 + beta)/eta = 0` with `z
+    /// = sqrt(D/dp)`, `y = delta/dp`, by Cardano and one Newton step. `None` without tensile branch (`kp =
+    /// k1`) \[m\].
     #[must_use]
     pub fn history_on_tensile_branch(&self, overlap: f64) -> Option<f64> {
         let eta = self.eta();
@@ -79,7 +80,7 @@ impl LudingPair {
         excess / (1.0 + excess / one_plus_beta)
     }
 
-    /// Area of one full loop, `W = (1/2) delta_0 (k1 D + kc delta_min)`, independent of `f_a` [J].
+    /// Area of one full loop, `W = (1/2) delta_0 (k1 D + kc delta_min)`, independent of `f_a` \[J\].
     ///
     /// Evaluated as `(1/2) k1 D^2 q(s)`, the same thing in one product.
     #[must_use]
@@ -95,7 +96,8 @@ fn depressed_cubic_root(p: f64, q: f64) -> f64 {
     let discriminant = half * half - third * third * third;
     let z = if discriminant >= 0.0 {
         let u = (half + discriminant.sqrt()).cbrt();
-        // The textbook's second cube root is third/u; taking it from there avoids a difference of near equals.
+        // The textbook's second cube root is third/u; taking it from there avoids a difference of near
+        // equals.
         u + third / u
     } else {
         let cosine = (half / (third * third.sqrt())).min(1.0);

@@ -1,8 +1,9 @@
-//! The restitution coefficient as the papers print it: functions of plasticity `eta`, adhesivity `beta` and velocity.
+//! The restitution coefficient as the papers print it: functions of plasticity `eta`, adhesivity `beta` and
+//! velocity.
 //!
-//! *Squared* coefficients are returned with their sign: a negative square is the energy that is missing for the
-//! separation, and S0 (28) / S1 (33) need exactly that signed number (eta = 4, beta = 1: `e_n1^2(1) = -1/3`). Take the
-//! root with [`root_or_zero`].
+//! *Squared* coefficients are returned with their sign: a negative square is the energy that is missing for
+//! the separation, and S0 (28) / S1 (33) need exactly that signed number (eta = 4, beta = 1: `e_n1^2(1) =
+//! -1/3`). Take the root with [`root_or_zero`].
 
 /// The coefficient that belongs to a signed square: its root, or zero where the pair sticks [-].
 #[must_use]

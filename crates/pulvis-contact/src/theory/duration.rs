@@ -8,11 +8,11 @@ use super::restitution::{Balance, Stage};
 /// Times and velocities at the corners of the force law.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Timetable {
-    /// From touch to `D` on the branch `k1` [s].
+    /// From touch to `D` on the branch `k1` \[s\].
     pub loading: f64,
-    /// From `D` over the largest overlap to `delta_min`, or to the stop [s].
+    /// From `D` over the largest overlap to `delta_min`, or to the stop \[s\].
     pub unloading: f64,
-    /// From `delta_min` to the opening, or to the stop; zero if not reached [s].
+    /// From `delta_min` to the opening, or to the stop; zero if not reached \[s\].
     pub tensile: f64,
     /// Velocity at `D` (positive above the plastic limit) [m/s].
     pub velocity_at_history: f64,
@@ -21,12 +21,13 @@ pub(super) struct Timetable {
 }
 
 impl LudingPair {
-    /// Duration of the contact (`delta >= 0`) for the touch velocity `v_i > 0` [m/s]; `None` where it does not open.
+    /// Duration of the contact (`delta >= 0`) for the touch velocity `v_i > 0` [m/s]; `None` where it does
+    /// not open.
     ///
-    /// With `f_a = 0` and `chi <= 1`:
-    /// `t = (pi/2)/w1 + [pi/2 + asin(kc delta_min/(k1 D))]/w2 + atanh(wc delta_min/v_min)/wc`, `w = sqrt(k/m_r)`.
-    /// Not in the papers; each branch is a harmonic (or exponential) motion, and their phases add up. Angles are taken
-    /// by `atan2` of position and velocity, which stays accurate where `asin` has a vertical tangent [s].
+    /// With `f_a = 0` and `chi <= 1`: `t = (pi/2)/w1 + [pi/2 + asin(kc delta_min/(k1 D))]/w2 + atanh(wc
+    /// delta_min/v_min)/wc`, `w = sqrt(k/m_r)`. Not in the papers; each branch is a harmonic (or exponential)
+    /// motion, and their phases add up. Angles are taken by `atan2` of position and velocity, which stays
+    /// accurate where `asin` has a vertical tangent \[s\].
     #[must_use]
     pub fn contact_duration(&self, touch_velocity: f64) -> Option<f64> {
         let balance = self.balance(touch_velocity);
@@ -74,8 +75,8 @@ impl LudingPair {
     /// Time on the tensile branch from the overlap `from` (speed `fast`) down to `to` (speed `slow`).
     ///
     /// The integral of `d delta/v` with `v^2` a square in `delta`: `ln[(a1 + wc v1)/(a2 + wc v2)]/wc`, where
-    /// `a = wc^2 delta + f_a/m_r`. The difference of the two arguments is divided out, so that `kc -> 0` gives
-    /// `2 (from - to)/(fast + slow)` without a jump.
+    /// `a = wc^2 delta + f_a/m_r`. The difference of the two arguments is divided out, so that `kc -> 0`
+    /// gives `2 (from - to)/(fast + slow)` without a jump.
     fn tensile_time(&self, from: f64, fast: f64, to: f64, slow: f64) -> f64 {
         let path = from - to;
         if path <= 0.0 {

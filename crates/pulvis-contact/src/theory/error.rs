@@ -31,7 +31,7 @@ pub enum TheoryError {
     /// An adhesive force was given, but no rule for what it does on approach and separation.
     #[error("an adhesive force f_a = {adhesion_force} N needs a non-contact rule (reversible or jump-in)")]
     AdhesionWithoutRule {
-        /// Adhesive force [N].
+        /// Adhesive force \[N\].
         adhesion_force: f64,
     },
     /// The formula belongs to the linear interpolation of the unloading stiffness.

@@ -13,7 +13,7 @@ pub struct LinearSpringDashpot {
 }
 
 impl LinearSpringDashpot {
-    /// A pair with the stiffness `k` [N/m], the damping `gamma` [kg/s] and the reduced mass `m_r` [kg].
+    /// A pair with the stiffness `k` [N/m], the damping `gamma` [kg/s] and the reduced mass `m_r` \[kg\].
     ///
     /// # Errors
     ///
@@ -26,8 +26,8 @@ impl LinearSpringDashpot {
         })
     }
 
-    /// The pair with the coefficient of restitution `e` [-], the stiffness `k` [N/m] and the reduced mass `m_r` [kg]:
-    /// `gamma = -2 ln e sqrt(k m_r/(pi^2 + ln^2 e))`.
+    /// The pair with the coefficient of restitution `e` [-], the stiffness `k` [N/m] and the reduced mass
+    /// `m_r` \[kg\]: `gamma = -2 ln e sqrt(k m_r/(pi^2 + ln^2 e))`.
     ///
     /// # Errors
     ///
@@ -44,8 +44,8 @@ impl LinearSpringDashpot {
         Self::new(stiffness, damping, reduced_mass)
     }
 
-    /// The pair with the contact duration `t_c` [s], the restitution `e` [-] and the reduced mass `m_r` [kg]:
-    /// `gamma = -2 m_r ln e/t_c`, `k = m_r (pi^2 + ln^2 e)/t_c^2`.
+    /// The pair with the contact duration `t_c` \[s\], the restitution `e` [-] and the reduced mass `m_r`
+    /// \[kg\]: `gamma = -2 m_r ln e/t_c`, `k = m_r (pi^2 + ln^2 e)/t_c^2`.
     ///
     /// # Errors
     ///
@@ -74,7 +74,7 @@ impl LinearSpringDashpot {
         self.damping
     }
 
-    /// Reduced mass `m_r` [kg].
+    /// Reduced mass `m_r` \[kg\].
     #[must_use]
     pub fn reduced_mass(&self) -> f64 {
         self.reduced_mass
@@ -104,7 +104,7 @@ impl LinearSpringDashpot {
         (w0 - h) * (w0 + h)
     }
 
-    /// Contact duration `t_c = pi/w`, S1 (3); infinite where the pair is overdamped and never opens [s].
+    /// Contact duration `t_c = pi/w`, S1 (3); infinite where the pair is overdamped and never opens \[s\].
     #[must_use]
     pub fn contact_duration(&self) -> f64 {
         PI / self.frequency()
@@ -116,7 +116,8 @@ impl LinearSpringDashpot {
         (-self.decay_rate() * self.contact_duration()).exp()
     }
 
-    /// Time to the largest overlap, `atan(w/h)/w`; overdamped `atanh(w'/h)/w'` with `w'^2 = h^2 - w_0^2` [s].
+    /// Time to the largest overlap, `atan(w/h)/w`; overdamped `atanh(w'/h)/w'` with `w'^2 = h^2 - w_0^2`
+    /// \[s\].
     #[must_use]
     pub fn loading_duration(&self) -> f64 {
         let h = self.decay_rate();
@@ -133,7 +134,7 @@ impl LinearSpringDashpot {
         }
     }
 
-    /// Largest overlap for the impact velocity `v` [m/s]: `(v/w_0) exp(-(h/w) atan(w/h))` [m].
+    /// Largest overlap for the impact velocity `v` [m/s]: `(v/w_0) exp(-(h/w) atan(w/h))` \[m\].
     #[must_use]
     pub fn overlap_max(&self, velocity: f64) -> f64 {
         velocity / self.natural_frequency() * (-self.decay_rate() * self.loading_duration()).exp()
@@ -141,20 +142,22 @@ impl LinearSpringDashpot {
 
     /// Duration of a contact that ends where the force vanishes instead of where the overlap does.
     ///
-    /// `2 atan(w/h)/w`: twice the loading time, because the force is the same function of time as the overlap, shifted
-    /// in phase. This is what a law without attraction does, and it holds for overdamped pairs too [s].
+    /// `2 atan(w/h)/w`: twice the loading time, because the force is the same function of time as the
+    /// overlap, shifted in phase. This is what a law without attraction does, and it holds for overdamped
+    /// pairs too \[s\].
     #[must_use]
     pub fn duration_to_zero_force(&self) -> f64 {
         2.0 * self.loading_duration()
     }
 
-    /// Restitution of a contact that ends at zero force: `e = exp(-2 (h/w) atan(w/h))`; `exp(-2)` at critical damping [-].
+    /// Restitution of a contact that ends at zero force: `e = exp(-2 (h/w) atan(w/h))`; `exp(-2)` at critical
+    /// damping [-].
     #[must_use]
     pub fn restitution_to_zero_force(&self) -> f64 {
         (-self.decay_rate() * self.duration_to_zero_force()).exp()
     }
 
-    /// Overlap that is left where the force vanishes, for the impact velocity `v` [m/s]: `gamma e v/k` [m].
+    /// Overlap that is left where the force vanishes, for the impact velocity `v` [m/s]: `gamma e v/k` \[m\].
     #[must_use]
     pub fn overlap_at_zero_force(&self, velocity: f64) -> f64 {
         self.damping / self.stiffness * self.restitution_to_zero_force() * velocity

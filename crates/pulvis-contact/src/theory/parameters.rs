@@ -33,15 +33,16 @@ pub struct LudingParameters {
     pub kp: f64,
     /// Cohesive stiffness `kc` of the tensile branch, not negative [N/m].
     pub kc: f64,
-    /// Plasticity depth `phi_f`, S1 (11); without effect for [`Interpolation::Constant`] and for `kp = k1` [-].
+    /// Plasticity depth `phi_f`, S1 (11); without effect for [`Interpolation::Constant`] and for `kp = k1`
+    /// [-].
     pub phi_f: f64,
-    /// Reduced mass `m_r = m1 m2/(m1 + m2)`, at a wall the mass of the particle [kg].
+    /// Reduced mass `m_r = m1 m2/(m1 + m2)`, at a wall the mass of the particle \[kg\].
     pub reduced_mass: f64,
-    /// Harmonic mean radius `a12 = 2 a1 a2/(a1 + a2)`, at a wall `2 a` (the papers' "reduced radius") [m].
+    /// Harmonic mean radius `a12 = 2 a1 a2/(a1 + a2)`, at a wall `2 a` (the papers' "reduced radius") \[m\].
     pub harmonic_radius: f64,
     /// How `k2` interpolates between `k1` and `kp`.
     pub interpolation: Interpolation,
-    /// Constant adhesive force `f_a` [N].
+    /// Constant adhesive force `f_a` \[N\].
     pub adhesion_force: f64,
     /// What `f_a` does out of contact.
     pub noncontact: NonContact,
@@ -73,7 +74,8 @@ impl LudingParameters {
         Self { interpolation, ..self }
     }
 
-    /// The same parameters with an adhesive force `f_a` [N] and the slope `k_c^a` [N/m] of its non-contact branch.
+    /// The same parameters with an adhesive force `f_a` \[N\] and the slope `k_c^a` [N/m] of its non-contact
+    /// branch.
     #[must_use]
     pub fn with_adhesion(
         self,
@@ -96,8 +98,8 @@ impl LudingPair {
     ///
     /// # Errors
     ///
-    /// Where a stiffness, mass, radius or depth is not positive and finite (`kc`, `f_a`: not negative; `k_c^a` may be
-    /// infinite), where `kp < k1`, and where `f_a > 0` comes with [`NonContact::None`].
+    /// Where a stiffness, mass, radius or depth is not positive and finite (`kc`, `f_a`: not negative;
+    /// `k_c^a` may be infinite), where `kp < k1`, and where `f_a > 0` comes with [`NonContact::None`].
     pub fn new(parameters: LudingParameters) -> Result<Self, TheoryError> {
         let p = parameters;
         positive("k1", p.k1)?;
@@ -125,7 +127,8 @@ impl LudingPair {
         &self.p
     }
 
-    /// Plasticity `eta = (kp - k1)/k1`, S1 (27a), S0 (24a); the text of S0 4.4 and S1 App. C prints `kp/k1` [-].
+    /// Plasticity `eta = (kp - k1)/k1`, S1 (27a), S0 (24a); the text of S0 4.4 and S1 App. C prints `kp/k1`
+    /// [-].
     #[must_use]
     pub fn eta(&self) -> f64 {
         (self.p.kp - self.p.k1) / self.p.k1
@@ -137,7 +140,8 @@ impl LudingPair {
         self.p.kc / self.p.k1
     }
 
-    /// Non-contact adhesivity `alpha = f_a/sqrt(k1 m_r v_i^2)` at the touch velocity `v_i` [m/s], S1 (27c) [-].
+    /// Non-contact adhesivity `alpha = f_a/sqrt(k1 m_r v_i^2)` at the touch velocity `v_i` [m/s], S1 (27c)
+    /// [-].
     #[must_use]
     pub fn alpha(&self, touch_velocity: f64) -> f64 {
         self.p.adhesion_force / ((self.p.k1 * self.p.reduced_mass).sqrt() * touch_velocity)
@@ -157,8 +161,8 @@ impl LudingPair {
         touch_velocity / self.v_p0()
     }
 
-    /// Impact velocity `zeta = v_i/v_p` with `f_a` in `v_p`, S1 (28b); `None` where every contact reaches the limit
-    /// branch (see [`Self::v_p`]) [-].
+    /// Impact velocity `zeta = v_i/v_p` with `f_a` in `v_p`, S1 (28b); `None` where every contact reaches the
+    /// limit branch (see [`Self::v_p`]) [-].
     #[must_use]
     pub fn zeta(&self, touch_velocity: f64) -> Option<f64> {
         self.v_p().map(|v_p| touch_velocity / v_p)
@@ -170,7 +174,7 @@ impl LudingPair {
         self.loading_overlap(touch_velocity) / self.dp()
     }
 
-    /// Force-free overlap on the limit branch, `phi_f a12`, S1 (11) [m].
+    /// Force-free overlap on the limit branch, `phi_f a12`, S1 (11) \[m\].
     #[must_use]
     pub fn limit_force_free_overlap(&self) -> f64 {
         self.p.phi_f * self.p.harmonic_radius
@@ -178,7 +182,7 @@ impl LudingPair {
 
     /// Plastic limit overlap `dp = kp/(kp - k1) phi_f a12`, S1 (10).
     ///
-    /// Infinite for `kp = k1` (elastic) and for [`Interpolation::Constant`] (never limited) [m].
+    /// Infinite for `kp = k1` (elastic) and for [`Interpolation::Constant`] (never limited) \[m\].
     #[must_use]
     pub fn dp(&self) -> f64 {
         if self.p.interpolation == Interpolation::Constant || self.p.kp == self.p.k1 {
@@ -190,13 +194,13 @@ impl LudingPair {
 
     /// Overlap at which the non-contact branch begins, `delta_a = -f_a/k_c^a <= 0`, S1 (14).
     ///
-    /// S1 also writes `delta_a^(1)`, `delta_a^(2)` for *positive* overlaps, which are unrelated [m].
+    /// S1 also writes `delta_a^(1)`, `delta_a^(2)` for *positive* overlaps, which are unrelated \[m\].
     #[must_use]
     pub fn noncontact_overlap(&self) -> f64 {
         if self.p.adhesion_force == 0.0 { 0.0 } else { -self.p.adhesion_force / self.p.noncontact_stiffness }
     }
 
-    /// Depth of the non-contact well, `f_a^2/(2 k_c^a)` [J].
+    /// Depth of the non-contact well, `f_a^2/(2 k_c^a)` \[J\].
     #[must_use]
     pub fn noncontact_energy(&self) -> f64 {
         0.5 * self.p.adhesion_force * -self.noncontact_overlap()

@@ -35,41 +35,42 @@ pub struct Restitution {
     pub contact: f64,
     /// Pull-off coefficient `eps_o = v_f^inf/v_f`, S1 (18b); zero where the pair does not come free [-].
     pub pull_off: f64,
-    /// Largest overlap [m].
+    /// Largest overlap \[m\].
     pub overlap_max: f64,
-    /// History overlap `D = min(delta_max, dp)` from which the pair unloads [m].
+    /// History overlap `D = min(delta_max, dp)` from which the pair unloads \[m\].
     pub history: f64,
-    /// Overlap at the end: where the kinetic energy vanishes (sticking), or where the force ends (`delta_a`, zero for
-    /// zero range) [m].
+    /// Overlap at the end: where the kinetic energy vanishes (sticking), or where the force ends (`delta_a`,
+    /// zero for zero range) \[m\].
     pub overlap_end: f64,
-    /// Energy lost: up to the end of the interaction, for a sticking pair up to its first stop, where the rest is
-    /// stored in the elastic branch and in the adhesive potential [J].
+    /// Energy lost: up to the end of the interaction, for a sticking pair up to its first stop, where the
+    /// rest is stored in the elastic branch and in the adhesive potential \[J\].
     pub energy_dissipated: f64,
 }
 
 /// Energies along one collision, all from the history overlap.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Balance {
-    /// `D = min(delta_max, dp)` [m].
+    /// `D = min(delta_max, dp)` \[m\].
     pub history: f64,
-    /// Kinetic energy left at `D`; positive only above the plastic limit [J].
+    /// Kinetic energy left at `D`; positive only above the plastic limit \[J\].
     pub at_limit: f64,
-    /// Kinetic energy at the force-free overlap `delta_0a` on the way out, S1 (20c), (23b) [J].
+    /// Kinetic energy at the force-free overlap `delta_0a` on the way out, S1 (20c), (23b) \[J\].
     pub force_free: f64,
-    /// `delta_0a = delta_0 + f_a/k2` [m].
+    /// `delta_0a = delta_0 + f_a/k2` \[m\].
     pub force_free_overlap: f64,
-    /// Kinetic energy at `delta_min`, negative if it is not reached, S1 (20d), (23c) corrected [J].
+    /// Kinetic energy at `delta_min`, negative if it is not reached, S1 (20d), (23c) corrected \[J\].
     pub at_minimum: f64,
-    /// Kinetic energy at the end of the contact, negative if it is not reached, S1 (21), (23e) [J].
+    /// Kinetic energy at the end of the contact, negative if it is not reached, S1 (21), (23e) \[J\].
     pub end: f64,
-    /// Kinetic energy at touch [J].
+    /// Kinetic energy at touch \[J\].
     pub touch: f64,
-    /// Area of the loop [J].
+    /// Area of the loop \[J\].
     pub loop_area: f64,
 }
 
 impl LudingPair {
-    /// Overlap at which the loading branch `k1` alone would stop the touch velocity `v_i` [m/s], S1 (20b) [m].
+    /// Overlap at which the loading branch `k1` alone would stop the touch velocity `v_i` [m/s], S1 (20b)
+    /// \[m\].
     pub(super) fn loading_overlap(&self, touch_velocity: f64) -> f64 {
         let f_a = self.p.adhesion_force;
         let momentum = (self.p.k1 * self.p.reduced_mass).sqrt() * touch_velocity;
@@ -128,10 +129,11 @@ impl LudingPair {
         }
     }
 
-    /// Pull-off coefficient `eps_o = sqrt(1 - (v_f^a/v_f)^2)` for the velocity `v_f` [m/s] at the end of the contact.
+    /// Pull-off coefficient `eps_o = sqrt(1 - (v_f^a/v_f)^2)` for the velocity `v_f` [m/s] at the end of the
+    /// contact.
     ///
-    /// S1 (18b), exact also with `f_a` in the contact; S0 prints the particle mass for `m_r`, and S1 after (25) says
-    /// "1 or < 0" for what is below 1 in both modes. Zero where the pair does not come free [-].
+    /// S1 (18b), exact also with `f_a` in the contact; S0 prints the particle mass for `m_r`, and S1 after
+    /// (25) says "1 or < 0" for what is below 1 in both modes. Zero where the pair does not come free [-].
     #[must_use]
     pub fn pull_off(&self, separation_velocity: f64) -> f64 {
         let v_fa = self.v_fa();
@@ -144,7 +146,7 @@ impl LudingPair {
         ((separation_velocity - v_fa) * (separation_velocity + v_fa)).sqrt() / separation_velocity
     }
 
-    /// Largest overlap of a collision with the touch velocity `v_i` [m/s], S1 (20b) and section 3.3.2 [m].
+    /// Largest overlap of a collision with the touch velocity `v_i` [m/s], S1 (20b) and section 3.3.2 \[m\].
     #[must_use]
     pub fn overlap_max(&self, touch_velocity: f64) -> f64 {
         self.turning_overlap(&self.balance(touch_velocity))
@@ -160,7 +162,8 @@ impl LudingPair {
 
     /// Coefficient of restitution for the velocity `v_inf >= 0` [m/s] outside the range of all forces.
     ///
-    /// Exact for `gamma_0 = 0` and every interpolation, S1 (16)-(25). At `v_inf = 0` it is the limit from above.
+    /// Exact for `gamma_0 = 0` and every interpolation, S1 (16)-(25). At `v_inf = 0` it is the limit from
+    /// above.
     #[must_use]
     pub fn restitution(&self, velocity: f64) -> Restitution {
         let touch_velocity = self.touch_velocity(velocity);
@@ -216,8 +219,9 @@ impl LudingPair {
     /// Overlap at which the pair stops, for each stage.
     pub(super) fn stop_overlap(&self, stage: Stage, balance: &Balance) -> f64 {
         let f_a = self.p.adhesion_force;
-        // Root of E_f + slope delta^2/2 + f_a delta = 0 next to zero, without a difference of near equals. On -kc the
-        // energy E_f is negative and the root an overlap; on -k_c^a it is positive and the root a gap.
+        // Root of E_f + slope delta^2/2 + f_a delta = 0 next to zero, without a difference of near equals. On
+        // -kc the energy E_f is negative and the root an overlap; on -k_c^a it is positive and the root a
+        // gap.
         let root = |slope: f64| {
             let denominator = f_a + (f_a * f_a - 2.0 * slope * balance.end).max(0.0).sqrt();
             if denominator > 0.0 { -2.0 * balance.end / denominator } else { 0.0 }
@@ -232,7 +236,8 @@ impl LudingPair {
         }
     }
 
-    /// Energy that is neither kinetic, nor stored in the elastic branch, nor in the adhesive potential at the stop.
+    /// Energy that is neither kinetic, nor stored in the elastic branch, nor in the adhesive potential at the
+    /// stop.
     fn dissipated_until(&self, stage: Stage, stop: f64, balance: &Balance, touch_loss: f64) -> f64 {
         let stored = match stage {
             Stage::NonContact => return balance.loop_area + touch_loss,

@@ -6,6 +6,9 @@ use super::energies::{available, loading_potential, tensile_potential, unloading
 use super::parameters::LudingPair;
 use super::restitution::{Balance, Regime, Restitution, Stage};
 
+/// A swing that returns to the overlap it came from meets it up to round-off.
+const ROUND_OFF: f64 = 1.0 + 1e-12;
+
 /// Branch of the force law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Branch {
@@ -20,36 +23,36 @@ pub enum Branch {
 /// State of the pair at one instant of the contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CollisionState {
-    /// Overlap [m].
+    /// Overlap \[m\].
     pub overlap: f64,
     /// Rate of the overlap, positive on approach [m/s].
     pub velocity: f64,
     /// Branch of the law.
     pub branch: Branch,
-    /// History overlap `D` at this instant [m].
+    /// History overlap `D` at this instant \[m\].
     pub history: f64,
-    /// Hysteretic force, without `f_a` [N].
+    /// Hysteretic force, without `f_a` \[N\].
     pub hysteretic_force: f64,
-    /// Kinetic energy of the relative motion [J].
+    /// Kinetic energy of the relative motion \[J\].
     pub kinetic_energy: f64,
-    /// Potential energy of the branch, S1 Fig. 15 [J].
+    /// Potential energy of the branch, S1 Fig. 15 \[J\].
     pub potential_energy: f64,
-    /// Energy that unloading from here would give back, S1 Fig. 15 [J].
+    /// Energy that unloading from here would give back, S1 Fig. 15 \[J\].
     pub available_energy: f64,
 }
 
 /// What a pair does after it stuck on a contact branch: it swings along `k2` for ever.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StuckOscillation {
-    /// Smallest overlap, where the pair stopped [m].
+    /// Smallest overlap, where the pair stopped \[m\].
     pub overlap_lower: f64,
-    /// Largest overlap [m].
+    /// Largest overlap \[m\].
     pub overlap_upper: f64,
-    /// History overlap, lowered with `k2` along the tensile branch [m].
+    /// History overlap, lowered with `k2` along the tensile branch \[m\].
     pub history: f64,
     /// Stiffness of the oscillation [N/m].
     pub stiffness: f64,
-    /// Period [s].
+    /// Period \[s\].
     pub period: f64,
 }
 
@@ -79,9 +82,10 @@ pub struct Trajectory {
 impl LudingPair {
     /// The oscillation after sticking, for the velocity `v_inf` [m/s] outside all ranges.
     ///
-    /// On the tensile branch the history is lowered with the overlap (S1 2.2.5: `k2` for unloading from `k1` and for
-    /// reloading from `kc` "are exactly matched"), so the swing is softer than the branch it came from. `None` where the
-    /// pair separates, stops out of contact, or where a strong `f_a` pulls it back into plastic loading.
+    /// On the tensile branch the history is lowered with the overlap (S1 2.2.5: `k2` for unloading from `k1`
+    /// and for reloading from `kc` "are exactly matched"), so the swing is softer than the branch it came
+    /// from. `None` where the pair separates, stops out of contact, or where a strong `f_a` pulls it back
+    /// into plastic loading.
     #[must_use]
     pub fn stuck_oscillation(&self, velocity: f64) -> Option<StuckOscillation> {
         self.oscillation_of(&self.restitution(velocity))
@@ -101,7 +105,7 @@ impl LudingPair {
         let centre = self.delta_0(history) + self.p.adhesion_force / stiffness;
         let upper = 2.0 * centre - lower;
         // A stop on k2 mirrors the largest overlap itself: equality up to round-off.
-        (upper <= limit * (1.0 + 1e-12)).then(|| StuckOscillation {
+        (upper <= limit * ROUND_OFF).then(|| StuckOscillation {
             overlap_lower: lower,
             overlap_upper: upper,
             history,
@@ -113,58 +117,60 @@ impl LudingPair {
     /// The motion from touch with the touch velocity `v_i > 0` [m/s], by phases that are each solved exactly.
     #[must_use]
     pub fn trajectory(&self, touch_velocity: f64) -> Trajectory {
+        let p = &self.p;
         let balance = self.balance(touch_velocity);
-        let stage = (balance.end <= 0.0).then(|| self.contact_stop(&balance));
-        let table = self.timetable(touch_velocity, &balance, stage);
-        let f_a = self.p.adhesion_force;
-        let k2 = self.k2(balance.history);
-        let minimum = self.delta_min(balance.history);
-        let phase = |branch, start, overlap, velocity, history, slope, force: f64| Phase {
-            branch,
-            start,
-            overlap,
-            velocity,
-            history,
-            slope,
-            force: force - f_a,
-        };
-        let k1 = self.p.k1;
-        let (touch, turn) = (0.0, table.loading);
+        let stop = (balance.end <= 0.0).then(|| self.contact_stop(&balance));
+        let table = self.timetable(touch_velocity, &balance, stop);
         let history = balance.history;
+        let (turn, k2) = (table.loading, self.k2(history));
+        let at_turn = (history, table.velocity_at_history);
         let mut phases = vec![
-            phase(Branch::Loading, touch, 0.0, touch_velocity, 0.0, k1, 0.0),
-            phase(Branch::Unloading, turn, history, table.velocity_at_history, history, k2, k1 * history),
+            self.phase(Branch::Loading, 0.0, (0.0, touch_velocity), 0.0, (p.k1, 0.0)),
+            self.phase(Branch::Unloading, turn, at_turn, history, (k2, p.k1 * history)),
         ];
-        let tension_start = turn + table.unloading;
-        let mut end = tension_start + table.tensile;
-        if !matches!(stage, Some((Stage::Unloading, _))) {
-            let (speed, slope) = (-table.velocity_at_minimum, -self.p.kc);
-            phases.push(phase(
-                Branch::Tensile,
-                tension_start,
-                minimum,
-                speed,
-                history,
-                slope,
-                slope * minimum,
-            ));
+        let tension = turn + table.unloading;
+        let mut end = tension + table.tensile;
+        if matches!(stop, Some((Stage::Unloading, _))) {
+            end = f64::INFINITY;
+        } else {
+            let minimum = self.delta_min(history);
+            let at_minimum = (minimum, -table.velocity_at_minimum);
+            phases.push(self.phase(Branch::Tensile, tension, at_minimum, history, (-p.kc, -p.kc * minimum)));
         }
-        match stage {
-            Some((Stage::Tensile, stop)) => {
-                let swing = self.history_on_tensile_branch(stop).map(|history| (history, self.k2(history)));
-                if let Some((history, k2)) = swing {
-                    let force = -self.p.kc * stop;
-                    phases.push(phase(Branch::Unloading, end, stop, 0.0, history, k2, force));
-                    // With f_a the swing may run into plastic loading, which is another collision.
-                    let upper = stop - 2.0 * (force - f_a) / k2;
-                    let half = 0.5 * TAU * (self.p.reduced_mass / k2).sqrt();
-                    end = if upper <= history * (1.0 + 1e-12) { f64::INFINITY } else { end + 0.5 * half };
-                }
+        if let Some((Stage::Tensile, overlap)) = stop {
+            // Without tensile branch (kp = k1) only f_a can stop the pair, at zero overlap: nothing follows.
+            if let Some(history) = self.history_on_tensile_branch(overlap) {
+                let (k2, force) = (self.k2(history), -p.kc * overlap);
+                phases.push(self.phase(Branch::Unloading, end, (overlap, 0.0), history, (k2, force)));
+                end = self.swing_end(end, overlap, history);
             }
-            Some(_) => end = f64::INFINITY,
-            None => {}
         }
         Trajectory { pair: *self, phases, end }
+    }
+
+    /// A phase from its start `(overlap, velocity)` and its line `(slope, hysteretic force at the start)`.
+    fn phase(
+        &self,
+        branch: Branch,
+        start: f64,
+        (overlap, velocity): (f64, f64),
+        history: f64,
+        (slope, force): (f64, f64),
+    ) -> Phase {
+        Phase { branch, start, overlap, velocity, history, slope, force: force - self.p.adhesion_force }
+    }
+
+    /// How long the motion is known after a stop on the tensile branch: for ever, unless the swing would
+    /// reach plastic loading (possible with `f_a` only), which is another collision; then up to there.
+    fn swing_end(&self, start: f64, lower: f64, history: f64) -> f64 {
+        let k2 = self.k2(history);
+        let upper = lower + 2.0 * (self.p.kc * lower + self.p.adhesion_force) / k2;
+        if upper <= history * ROUND_OFF {
+            return f64::INFINITY;
+        }
+        // Harmonic about the middle from its lower end: cos(w t) = 1 - 2 (history - lower)/(upper - lower).
+        let share = ((history - lower) / (upper - lower)).clamp(0.0, 1.0);
+        start + 2.0 * share.sqrt().asin() * (self.p.reduced_mass / k2).sqrt()
     }
 
     fn contact_stop(&self, balance: &Balance) -> (Stage, f64) {
@@ -174,13 +180,13 @@ impl LudingPair {
 }
 
 impl Trajectory {
-    /// Time at which the contact opens; infinite where the pair stays in contact [s].
+    /// Time at which the contact opens; infinite where the pair stays in contact \[s\].
     #[must_use]
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// State at the time `t` [s] after touch; `None` outside the contact.
+    /// State at the time `t` \[s\] after touch; `None` outside the contact.
     #[must_use]
     pub fn at(&self, time: f64) -> Option<CollisionState> {
         if !(0.0..=self.end).contains(&time) {

@@ -5,8 +5,8 @@ use super::parameters::{Interpolation, LudingPair, LudingParameters};
 
 /// Limit stiffness `kp'` [N/m] that keeps `k2(D)` when the plasticity depth becomes `phi_f'`: S1 (A.3).
 ///
-/// `kp' = k1 + AB/2 + sqrt((AB/2)^2 + k1 AB)` with `A = (kp - k1)^2/kp`, `B = phi_f'/phi_f`. The text before (A.1) cites
-/// Eq. (10) for what is Eq. (9).
+/// `kp' = k1 + AB/2 + sqrt((AB/2)^2 + k1 AB)` with `A = (kp - k1)^2/kp`, `B = phi_f'/phi_f`. The text before
+/// (A.1) cites Eq. (10) for what is Eq. (9).
 #[must_use]
 pub fn tuned_limit_stiffness(k1: f64, kp: f64, depth_ratio: f64) -> f64 {
     let excess = kp - k1;
@@ -19,7 +19,8 @@ impl LudingPair {
     ///
     /// # Errors
     ///
-    /// For another interpolation than the linear one (the appendix rests on S1 (9)), and where `phi_f'` is not positive.
+    /// For another interpolation than the linear one (the appendix rests on S1 (9)), and where `phi_f'` is
+    /// not positive.
     pub fn tuned(&self, phi_f: f64) -> Result<Self, TheoryError> {
         if self.p.interpolation != Interpolation::Linear {
             return Err(TheoryError::NotLinearInterpolation);

@@ -4,9 +4,10 @@ use super::parameters::{Interpolation, LudingPair, NonContact};
 
 /// Limits of the two sticking ranges, as velocities outside the range of all forces.
 ///
-/// S1 calls them `v_c^(a)`, `v_c^(b)`, `v_c^(c)` (in captions sometimes `chi_c^(1)`, `chi_c^(2)` for the last two). The
-/// pair sticks for `v <= low_end` and for `high_onset <= v <= high_end`. Where the two ranges have merged, `low_end` and
-/// `high_onset` are `None` and the pair sticks at every `v <= high_end`, which is infinite if there is no plastic limit.
+/// S1 calls them `v_c^(a)`, `v_c^(b)`, `v_c^(c)` (in captions sometimes `chi_c^(1)`, `chi_c^(2)` for the last
+/// two). The pair sticks for `v <= low_end` and for `high_onset <= v <= high_end`. Where the two ranges have
+/// merged, `low_end` and `high_onset` are `None` and the pair sticks at every `v <= high_end`, which is
+/// infinite if there is no plastic limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CriticalVelocities {
     /// End of the low-velocity sticking caused by `f_a`; zero for `f_a = 0` [m/s].
@@ -37,7 +38,8 @@ struct ReboundWindow {
 }
 
 impl LudingPair {
-    /// Impact velocity that just reaches the plastic limit without `f_a`: `v_p0 = sqrt(k1/m_r) dp`, S1 (13) [m/s].
+    /// Impact velocity that just reaches the plastic limit without `f_a`: `v_p0 = sqrt(k1/m_r) dp`, S1 (13)
+    /// [m/s].
     #[must_use]
     pub fn v_p0(&self) -> f64 {
         (self.p.k1 / self.p.reduced_mass).sqrt() * self.dp()
@@ -53,9 +55,11 @@ impl LudingPair {
         (squared >= 0.0).then(|| squared.sqrt())
     }
 
-    /// Smallest velocity at the end of the contact with which the pair comes free, `v_f^a = f_a/sqrt(m_r k_c^a)`.
+    /// Smallest velocity at the end of the contact with which the pair comes free, `v_f^a = f_a/sqrt(m_r
+    /// k_c^a)`.
     ///
-    /// S1 after (18b). S0 (18), (19) print the particle mass and call it a maximum. Zero for zero range [m/s].
+    /// S1 after (18b). S0 (18), (19) print the particle mass and call it a maximum. Zero for zero range
+    /// [m/s].
     #[must_use]
     pub fn v_fa(&self) -> f64 {
         self.p.adhesion_force / (self.p.reduced_mass * self.p.noncontact_stiffness).sqrt()
@@ -63,8 +67,9 @@ impl LudingPair {
 
     /// Limits of the sticking ranges with `f_a` and with a finite non-contact range.
     ///
-    /// Closed for `f_a = 0` (S1 (34), (37)), for the linear interpolation with zero range (a square) and for the
-    /// constant interpolation; otherwise the exact energy balance is solved by bisection down to neighbouring `f64`.
+    /// Closed for `f_a = 0` (S1 (34), (37)), for the linear interpolation with zero range (a square) and for
+    /// the constant interpolation; otherwise the exact energy balance is solved by bisection down to
+    /// neighbouring `f64`.
     #[must_use]
     pub fn critical_velocities(&self) -> CriticalVelocities {
         if self.dp().is_infinite() {
@@ -152,8 +157,8 @@ fn zero_range_window(eta: f64, beta: f64, phi: f64) -> Option<ReboundWindow> {
 /// The sign of this function of `s` decides whether a pair below the limit comes free:
 /// `F(s) = 1 + beta - beta s - (force s^-n + well s^-2n)(1 + beta + s)`.
 ///
-/// `F` is the final energy over `(1/2) k1 D^2`, times `1 + beta + s`. All its terms are concave in `s > 0`, so it has
-/// one maximum and at most two roots.
+/// `F` is the final energy over `(1/2) k1 D^2`, times `1 + beta + s`. All its terms are concave in `s > 0`,
+/// so it has one maximum and at most two roots.
 struct Margin {
     beta: f64,
     order: i32,
@@ -204,8 +209,8 @@ fn last_positive(function: impl Fn(f64) -> f64, end: f64) -> f64 {
     last_positive_above(function, f64::MIN_POSITIVE, end)
 }
 
-/// Bisection over the bit patterns of positive numbers, which are ordered like the numbers: it ends at neighbouring
-/// numbers after at most 64 halvings, whatever the scale of the root.
+/// Bisection over the bit patterns of positive numbers, which are ordered like the numbers: it ends at
+/// neighbouring numbers after at most 64 halvings, whatever the scale of the root.
 fn last_positive_above(function: impl Fn(f64) -> f64, start: f64, end: f64) -> f64 {
     let (mut below, mut above) = (start.to_bits(), end.to_bits());
     while above - below > 1 {
