@@ -215,12 +215,18 @@ proptest! {
         let touch_loss = if p.noncontact == NonContact::JumpIn { pair.noncontact_energy() } else { 0.0 };
         let stuck = matches!(result.regime, Regime::Stick(Stage::Unloading | Stage::Tensile));
         if stuck == motion.end().is_infinite() {
+            prop_assert_eq!(pair.stuck_oscillation(velocity).is_some(), stuck);
             // A weak tensile branch may take hundreds of units of time; by then the pair swings.
             let late = motion.end().min(1e6 * (p.reduced_mass / p.k1).sqrt());
             let state = motion.at(late).unwrap();
             let remaining = state.kinetic_energy + state.available_energy - f_a * state.overlap;
             let lost = 0.5 * p.reduced_mass * touch * touch - remaining + touch_loss;
             prop_assert!((lost - result.energy_dissipated).abs() < 1e-9 * scale, "{lost} {result:?}");
+        } else if stuck {
+            // The force f_a pulls the swing back into plastic loading; the known motion ends where that begins.
+            let state = motion.at(motion.end()).unwrap();
+            prop_assert!((state.overlap / state.history - 1.0).abs() < 1e-7, "{state:?}");
+            prop_assert!(pair.stuck_oscillation(velocity).is_none());
         }
         let balance = pair.contact_duration(touch);
         if let Some(duration) = balance {
@@ -345,4 +351,28 @@ fn senseless_parameters_are_refused_with_their_name() {
         TheoryError::NotPositive { name: "k1", .. }
     ));
     assert!(LudingPair::new(p.with_adhesion(NonContact::JumpIn, 1e-6, 0.0)).is_err());
+}
+
+#[test]
+fn the_printed_sticking_overlaps_agree_with_the_pair_on_both_branches() {
+    let (mut tensile, mut unloading) = (0, 0);
+    for eta in [1.5, 2.0, 4.0, 8.0, 50.0] {
+        for beta in (1..80).map(|step| 0.05 * f64::from(step)) {
+            let p = LudingParameters::new(1e2, 1e2 * (1.0 + eta), 1e2 * beta, 0.05, 5.575e-6, 1.1e-3);
+            let pair = LudingPair::new(p).unwrap();
+            for chi in (1..60).map(|step| 0.031 * f64::from(step)) {
+                let result = pair.restitution(chi * pair.v_p0());
+                let Some(overlap) = sticking::sticking_overlap(eta, beta, chi) else {
+                    assert_eq!(result.regime, Regime::Rebound);
+                    continue;
+                };
+                let on_tensile = sticking::stops_on_tensile_branch(eta, beta, chi);
+                assert_eq!(result.regime == Regime::Stick(Stage::Tensile), on_tensile, "{eta} {beta} {chi}");
+                let found = result.overlap_end / pair.dp();
+                assert!((overlap - found).abs() < 1e-12, "{eta} {beta} {chi}: {overlap} {found}");
+                *(if on_tensile { &mut tensile } else { &mut unloading }) += 1;
+            }
+        }
+    }
+    assert!(tensile > 1000 && unloading > 1000, "both branches are visited: {tensile} {unloading}");
 }

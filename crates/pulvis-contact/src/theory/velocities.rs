@@ -219,3 +219,24 @@ fn last_positive_above(function: impl Fn(f64) -> f64, start: f64, end: f64) -> f
     }
     f64::from_bits(below)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Margin;
+
+    #[test]
+    fn the_slope_of_the_margin_is_its_derivative() {
+        for order in [1, 2] {
+            for (beta, force, well) in [(0.3, 0.2, 0.0), (0.0, 0.7, 0.1), (2.0, 0.0, 0.4)] {
+                let margin = Margin { beta, order, force, well };
+                for s in [0.3, 1.0, 4.0] {
+                    let step = 1e-5 * s;
+                    let difference = (margin.value(s + step) - margin.value(s - step)) / (2.0 * step);
+                    // Second order in the relative step 1e-5, round-off 1e-16/1e-5.
+                    let slope = margin.slope(s);
+                    assert!((difference - slope).abs() < 1e-8 * (1.0 + slope.abs()), "{difference} {slope}");
+                }
+            }
+        }
+    }
+}
