@@ -104,7 +104,7 @@ def check_sample(particles, contacts, of_particles, of_contacts, time):
         require(of_particles["id"][row] == number, f"particle {number} has another id")
         require(of_particles["type"][row] == number % 2 + 1, f"particle {number} has another type")
         require(of_particles["radius"][row] == 1.0e-3 * (1.0 + 1.0 / number), f"particle {number}: radius")
-        require(tuple(of_particles["velocity"][row]) == (number, 0.5, time), f"particle {number}: velocity")
+        require(tuple(of_particles["v"][row]) == (number, 0.5, time), f"particle {number}: velocity")
     for row in range(count - 1):
         require(tuple(of_contacts["force"][row]) == (row, -0.5, 1.0e-9), f"contact {row}: force")
         require(of_contacts["overlap"][row] == 1.0e-6 * row, f"contact {row}: overlap")

@@ -39,7 +39,7 @@ fn write(folder: std::path::PathBuf) -> Result<(), IoError> {
                 Column::index("id", &id),
                 Column::integer("type", &material),
                 Column::scalar("radius", &radius),
-                Column::vector("velocity", &velocity),
+                Column::vector("v", &velocity),
             ],
         };
         let contacts = ContactFrame {

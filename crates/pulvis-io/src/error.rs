@@ -36,7 +36,9 @@ pub enum IoError {
         column: String,
     },
     /// A row of a table does not have one cell per column.
-    #[error("a row of {found} cells does not fit a table of {expected} columns; fill missing cells explicitly")]
+    #[error(
+        "a row of {found} cells does not fit a table of {expected} columns; fill missing cells explicitly"
+    )]
     RowLength {
         /// Number of columns.
         expected: usize,
@@ -70,7 +72,9 @@ pub enum IoError {
         known: String,
     },
     /// A picture or plot has a size that cannot be drawn.
-    #[error("a picture of {width} x {height} pixels cannot be drawn; choose each side between {least} and {most}")]
+    #[error(
+        "a picture of {width} x {height} pixels cannot be drawn; choose each side between {least} and {most}"
+    )]
     PictureSize {
         /// Width asked for [pixel].
         width: u32,

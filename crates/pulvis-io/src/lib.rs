@@ -31,14 +31,14 @@
 //! # }
 //! ```
 
-//mod colour;
+mod colour;
 mod error;
 mod file;
-//mod font;
+mod font;
 //pub mod picture;
-//pub mod plot;
+pub mod plot;
 pub mod table;
 pub mod vtk;
 
-//pub use colour::{Colour, ColourMap};
+pub use colour::{Colour, ColourMap};
 pub use error::IoError;

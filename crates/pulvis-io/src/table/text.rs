@@ -75,6 +75,9 @@ mod tests {
         table.push([Cell::Number(0.5), Cell::from("luding")]).unwrap();
         table.push([Cell::Number(1.25e-9), Cell::from("two\nlines")]).unwrap();
         table.push([Cell::Empty, Cell::Empty]).unwrap();
-        assert_eq!(table.to_text(3), "  µ [-]  law\n-------  ---------\n    0.5  luding\n1.25e-9  two lines\n\n");
+        assert_eq!(
+            table.to_text(3),
+            "  µ [-]  law\n-------  ---------\n    0.5  luding\n1.25e-9  two lines\n\n"
+        );
     }
 }

@@ -142,7 +142,8 @@ mod tests {
     fn the_header_is_there_before_the_first_row() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("series.csv");
-        let mut series = TimeSeriesWriter::create(&path, ["t [s]", "e, total [J]"]).unwrap().rows_per_group(1);
+        let mut series =
+            TimeSeriesWriter::create(&path, ["t [s]", "e, total [J]"]).unwrap().rows_per_group(1);
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "t [s],\"e, total [J]\"\n");
         series.row(&[f64::NAN, f64::INFINITY]).unwrap();
         assert!(std::fs::read_to_string(&path).unwrap().ends_with("\nnan,inf\n"));

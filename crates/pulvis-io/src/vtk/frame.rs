@@ -184,7 +184,8 @@ mod tests {
     fn each_contact_is_a_line_with_two_points_of_its_own() {
         let ends = [[[0.0; 3], [1.0; 3]], [[1.0; 3], [2.0; 3]]];
         let columns = [Column::index("id1", &[1, 2]), Column::index("id2", &[2, 3])];
-        let text = written(|path| write_contacts(path, &ContactFrame { ends: &ends, columns: &columns }).unwrap());
+        let text =
+            written(|path| write_contacts(path, &ContactFrame { ends: &ends, columns: &columns }).unwrap());
         assert!(text.contains("NumberOfPoints=\"4\"") && text.contains("NumberOfLines=\"2\""));
         assert_eq!(floats(&payload(&text, "connectivity")), [0, 1, 2, 3]);
         assert_eq!(floats(&payload(&text, "offsets")), [2, 4]);
@@ -193,8 +194,9 @@ mod tests {
     #[test]
     fn names_are_escaped_for_xml() {
         let columns = [Column::scalar("a<b & \"c\"", &[])];
-        let text =
-            written(|path| write_particles(path, &ParticleFrame { positions: &[], columns: &columns }).unwrap());
+        let text = written(|path| {
+            write_particles(path, &ParticleFrame { positions: &[], columns: &columns }).unwrap()
+        });
         assert!(text.contains("Name=\"a&lt;b &amp; &quot;c&quot;\""), "{text}");
     }
 

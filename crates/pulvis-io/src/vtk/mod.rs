@@ -15,8 +15,10 @@
 //! from a surface by that). Checked with VTK 9.7, pyvista 0.49 and OVITO 3.17; `scripts/check_vtk.py` repeats the check
 //! on any run folder.
 //!
-//! Column names that OVITO understands unaided: `id`, `type`, `radius`, `velocity`, `omega` for particles and `id1`,
-//! `id2` for contacts. ParaView takes any name.
+//! Column names that OVITO understands unaided: `id`, `type`, `radius`, `v` (velocity), `omega`, `f` (force) for
+//! particles and `id1`, `id2`, `force` for contacts. ParaView takes any name.
+//!
+//! Known limit: in a frame without contacts OVITO 3.17 goes on showing the contacts of the first frame; ParaView shows none.
 //!
 //! ```
 //! use pulvis_io::vtk::{Column, ContactFrame, ParticleFrame, SeriesWriter};

@@ -37,7 +37,9 @@ pub(crate) fn write(
         "<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{vertices}\" NumberOfLines=\"{lines}\" \
          NumberOfStrips=\"0\" NumberOfPolys=\"0\">"
     )?;
-    section(out, "Points", |out| array(out, "Points", "Float64", 3, coordinates.iter().map(|x| x.to_le_bytes())))?;
+    section(out, "Points", |out| {
+        array(out, "Points", "Float64", 3, coordinates.iter().map(|x| x.to_le_bytes()))
+    })?;
     match cells {
         Cells::Vertices => {
             section(out, "PointData", |out| columns.iter().try_for_each(|column| write_column(out, column)))?;
@@ -65,7 +67,9 @@ fn write_column(out: &mut impl Write, column: &Column<'_>) -> io::Result<()> {
             array(out, name, "Float64", 3, values.as_flattened().iter().map(|x| x.to_le_bytes()))
         }
         Values::Integer(values) => array(out, name, "Int64", 1, values.iter().map(|x| x.to_le_bytes())),
-        Values::Index(values) => array(out, name, "Int64", 1, values.iter().map(|&x| i64::from(x).to_le_bytes())),
+        Values::Index(values) => {
+            array(out, name, "Int64", 1, values.iter().map(|&x| i64::from(x).to_le_bytes()))
+        }
     }
 }
 

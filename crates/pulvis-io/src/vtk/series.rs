@@ -111,7 +111,8 @@ mod tests {
             assert!(frame.exists());
         }
         let hidden = std::fs::read_dir(series.folder()).unwrap();
-        let hidden = hidden.filter(|entry| entry.as_ref().unwrap().file_name().to_string_lossy().starts_with('.'));
+        let hidden =
+            hidden.filter(|entry| entry.as_ref().unwrap().file_name().to_string_lossy().starts_with('.'));
         assert_eq!(hidden.count(), 0, "no temporary file stays");
     }
 

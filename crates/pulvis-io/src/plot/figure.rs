@@ -1,0 +1,119 @@
+//! Charts stacked into one picture, and the file formats.
+
+use super::canvas::{Across, Along, Canvas, Setting};
+use super::chart::Chart;
+use super::draw::{self, Panel};
+use super::geometry::Rectangle;
+use super::{raster, vector};
+use crate::{Colour, IoError};
+use plotters::prelude::DrawingBackend;
+use std::path::Path;
+
+/// Every file format of figures. A new one is a file beside this one and a line here.
+pub const FORMATS: &[PlotFormat] = &[raster::FORMAT, vector::FORMAT];
+
+/// A file format of figures.
+#[derive(Clone, Copy, Debug)]
+pub struct PlotFormat {
+    /// Ending of its files, without the dot.
+    pub extension: &'static str,
+    /// What it is good for, in one line.
+    pub summary: &'static str,
+    /// The writer.
+    pub(super) write: fn(&Figure, &Path) -> Result<(), IoError>,
+}
+
+/// Charts under one another in one picture, their axes in line.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Figure {
+    title: String,
+    panels: Vec<Chart>,
+    size: Option<(u32, u32)>,
+}
+
+impl Figure {
+    /// Smallest and largest side of a figure [pt].
+    const SIDES: [u32; 2] = [120, 4000];
+
+    /// Width unless told otherwise [pt].
+    const WIDTH: u32 = 640;
+
+    /// A figure without charts.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A heading above all charts.
+    #[must_use]
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
+    }
+
+    /// Adds a chart below those there are.
+    #[must_use]
+    pub fn panel(mut self, chart: Chart) -> Self {
+        self.panels.push(chart);
+        self
+    }
+
+    /// Sets the size of the whole figure [pt]; a PNG has two pixels per point.
+    #[must_use]
+    pub fn sized(mut self, width: u32, height: u32) -> Self {
+        self.size = Some((width, height));
+        self
+    }
+
+    /// Writes the figure; the ending of `path` names the format.
+    ///
+    /// # Errors
+    /// An ending that is not in [`FORMATS`], a size that cannot be drawn, or a file that cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), IoError> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        let format = FORMATS.iter().find(|format| format.extension.eq_ignore_ascii_case(&ending));
+        let format = format.ok_or_else(|| IoError::UnknownFormat {
+            what: "plot",
+            given: ending.into_owned(),
+            known: FORMATS.iter().map(|format| format.extension).collect::<Vec<_>>().join(", "),
+        })?;
+        let (width, height) = self.size();
+        let [least, most] = Self::SIDES;
+        if [width, height].into_iter().any(|side| !(least..=most).contains(&side)) {
+            return Err(IoError::PictureSize { width, height, least, most });
+        }
+        (format.write)(self, path)
+    }
+
+    /// Width and height [pt].
+    pub(super) fn size(&self) -> (u32, u32) {
+        let automatic = match self.panels.len() {
+            0 | 1 => 420,
+            // Fifteen panels fill the tallest figure; more share its height.
+            many => (270 * many.min(14)) as u32,
+        };
+        self.size.unwrap_or((Self::WIDTH, automatic))
+    }
+
+    /// Draws all charts.
+    pub(super) fn draw<DB: DrawingBackend>(&self, canvas: &Canvas<DB>) -> Result<(), IoError> {
+        let (width, height) = self.size();
+        let (right, bottom) = (f64::from(width), f64::from(height));
+        let page = [(0.0, 0.0), (right, 0.0), (right, bottom), (0.0, bottom)];
+        canvas.fill(&page, Colour::WHITE, 1.0)?;
+        let mut top = 0.0;
+        if !self.title.is_empty() {
+            let (along, across) = (Along::Middle, Across::Top);
+            let setting = Setting { size: 16.0, colour: Colour::grey(0x10), along, across, upwards: false };
+            canvas.text((0.5 * right, 9.0), &self.title, setting)?;
+            top = 26.0;
+        }
+        let share = (bottom - top) / self.panels.len().max(1) as f64;
+        // One left margin for all, so that axes with the same quantity lie above one another.
+        let left = self.panels.iter().map(|chart| draw::left_margin(chart, share)).fold(0.0, f64::max);
+        self.panels.iter().enumerate().try_for_each(|(number, chart)| {
+            let top = top + share * number as f64;
+            let outer = Rectangle { left: 0.0, top, right, bottom: top + share };
+            Panel::new(chart, outer, left).draw(canvas)
+        })
+    }
+}

@@ -1,0 +1,42 @@
+//! Charts of curves as PNG or SVG, meant to be good enough for a paper.
+//!
+//! A [`Chart`] is one pair of axes with any number of [`Series`]; a [`Figure`] stacks charts in one picture. Colours come
+//! from a palette that colour-blind readers can tell apart, and points of different series also differ in shape. Ranges
+//! follow the data, the legend takes the emptiest corner.
+//!
+//! Points that are not finite (or not positive on a logarithmic axis) are gaps in their line.
+//!
+//! ```
+//! use pulvis_io::plot::{Chart, Figure, Series};
+//!
+//! # fn main() -> Result<(), pulvis_io::IoError> {
+//! # let scratch = tempfile::tempdir().expect("a temporary folder");
+//! # let folder = scratch.path();
+//! let velocity = (1..=60).map(|n| 0.01 * f64::from(n));
+//! let restitution = Chart::new("Restitution")
+//!     .x_label("impact velocity [m/s]")
+//!     .y_label("coefficient of restitution [-]")
+//!     .log_x()
+//!     .series(Series::line("theory", velocity.map(|v| (v, 0.8 / (1.0 + v)))))
+//!     .series(Series::points("simulation", [(0.01, 0.79), (0.1, 0.73), (0.5, 0.53)]))
+//!     .marker(0.2, "sticking limit");
+//! restitution.write(&folder.join("restitution.svg"))?;
+//!
+//! let force = Chart::new("Force").zero_line().series(Series::dashed("loading", [(0.0, 0.0), (1.0, 2.0)]));
+//! Figure::new().panel(restitution).panel(force).write(&folder.join("both.png"))?;
+//! # Ok(())
+//! # }
+//! ```
+
+mod axis;
+mod canvas;
+mod chart;
+mod draw;
+mod figure;
+mod geometry;
+mod legend;
+mod raster;
+mod vector;
+
+pub use chart::{Axis, Chart, Series, SeriesStyle};
+pub use figure::{FORMATS, Figure, PlotFormat};

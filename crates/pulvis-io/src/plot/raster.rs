@@ -1,0 +1,72 @@
+//! PNG: drawn several times too large, then averaged, which smooths the edges.
+
+use super::canvas::{Canvas, Stroke};
+use super::figure::{Figure, PlotFormat};
+use crate::{IoError, file};
+use image::ImageEncoder;
+use image::codecs::png::PngEncoder;
+use plotters::prelude::{BitMapBackend, IntoDrawingArea};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Pixels of the file per point: sharp on paper and on dense screens.
+const PIXELS_PER_POINT: u32 = 2;
+
+/// Drawn pixels per pixel of the file, in each direction.
+const OVERSAMPLING: u32 = 3;
+
+/// Portable network graphics.
+pub(super) const FORMAT: PlotFormat =
+    PlotFormat { extension: "png", summary: "pixels, for slides and web pages", write };
+
+fn write(figure: &Figure, path: &Path) -> Result<(), IoError> {
+    let (width, height) = figure.size();
+    let (width, height) = (width * PIXELS_PER_POINT, height * PIXELS_PER_POINT);
+    let (wide, high) = (width * OVERSAMPLING, height * OVERSAMPLING);
+    let mut large = vec![255_u8; 3 * wide as usize * high as usize];
+    {
+        let area = BitMapBackend::with_buffer(&mut large, (wide, high)).into_drawing_area();
+        figure.draw(&Canvas::new(area, f64::from(PIXELS_PER_POINT * OVERSAMPLING), Stroke::Filled)?)?;
+    }
+    let pixels = average(&large, wide as usize, OVERSAMPLING as usize);
+    file::replace(path, |out| encode(out, &pixels, width, height))
+}
+
+/// Writes pixels (red, green, blue) as PNG.
+pub(crate) fn encode(out: &mut impl Write, pixels: &[u8], width: u32, height: u32) -> io::Result<()> {
+    let encoder = PngEncoder::new(out);
+    encoder.write_image(pixels, width, height, image::ExtendedColorType::Rgb8).map_err(io::Error::other)
+}
+
+/// Averages squares of `times` by `times` pixels of an image `wide` pixels wide.
+pub(crate) fn average(large: &[u8], wide: usize, times: usize) -> Vec<u8> {
+    let width = wide / times;
+    let mut small = Vec::with_capacity(large.len() / (times * times));
+    let mut sums = vec![0_u32; 3 * width];
+    for rows in large.chunks_exact(3 * wide * times) {
+        sums.fill(0);
+        for row in rows.chunks_exact(3 * wide) {
+            for (sum, square) in sums.chunks_exact_mut(3).zip(row.chunks_exact(3 * times)) {
+                for pixel in square.chunks_exact(3) {
+                    sum.iter_mut().zip(pixel).for_each(|(sum, &part)| *sum += u32::from(part));
+                }
+            }
+        }
+        let count = (times * times) as u32;
+        small.extend(sums.iter().map(|sum| ((sum + count / 2) / count) as u8));
+    }
+    small
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn averaging_keeps_what_is_even_and_halves_what_is_half() {
+        // Two rows of four pixels: left half black and white in turn, right half grey.
+        let row = [[0; 3], [255; 3], [9; 3], [9; 3]];
+        let large: Vec<u8> = [row, row].as_flattened().as_flattened().to_vec();
+        assert_eq!(average(&large, 4, 2), [128, 128, 128, 9, 9, 9]);
+    }
+}
