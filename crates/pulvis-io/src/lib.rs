@@ -35,7 +35,7 @@ mod colour;
 mod error;
 mod file;
 mod font;
-//pub mod picture;
+pub mod picture;
 pub mod plot;
 pub mod table;
 pub mod vtk;

@@ -11,7 +11,7 @@ const PADDING: f64 = 0.04;
 
 /// An axis with a definite range, ready to place values.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Scale {
+pub(crate) struct Scale {
     /// Ends in axis coordinates: the value itself, or its decimal logarithm.
     low: f64,
     high: f64,
@@ -20,22 +20,23 @@ pub(super) struct Scale {
 
 /// A place on the axis that is labelled.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Tick {
+pub(crate) struct Tick {
     /// Place from 0 (low end) to 1 (high end).
-    pub(super) place: f64,
+    pub(crate) place: f64,
     /// Text; empty for a minor tick.
-    pub(super) label: String,
+    pub(crate) label: String,
 }
 
 impl Scale {
     /// The range that the axis fixes, or else the one that fits `values`.
-    pub(super) fn new(axis: &Axis, values: impl Iterator<Item = f64>) -> Self {
+    pub(crate) fn new(axis: &Axis, values: impl Iterator<Item = f64>) -> Self {
         let logarithmic = axis.logarithmic;
         let coordinate = |value: f64| coordinate(value, logarithmic);
-        if let Some([Some(low), Some(high)]) = axis.range.map(|range| range.map(coordinate)) {
-            if low != high && (high - low).abs() > 1.0e-300 {
-                return Self { low, high, logarithmic };
-            }
+        let fixed = axis.range.map(|range| range.map(coordinate));
+        if let Some([Some(low), Some(high)]) = fixed
+            && (high - low).abs() > 1.0e-300
+        {
+            return Self { low, high, logarithmic };
         }
         let ends = values.filter_map(coordinate).fold(None, |ends: Option<(f64, f64)>, value| {
             Some(ends.map_or((value, value), |(low, high)| (low.min(value), high.max(value))))
@@ -61,12 +62,12 @@ impl Scale {
     }
 
     /// Place of a value: 0 at the low end, 1 at the high end; `None` for a gap.
-    pub(super) fn place(&self, value: f64) -> Option<f64> {
+    pub(crate) fn place(&self, value: f64) -> Option<f64> {
         coordinate(value, self.logarithmic).map(|x| (x - self.low) / (self.high - self.low))
     }
 
     /// Ticks for an axis that has room for about `room` labels, and the exponent that the labels leave out.
-    pub(super) fn ticks(&self, room: f64) -> (Vec<Tick>, i32) {
+    pub(crate) fn ticks(&self, room: f64) -> (Vec<Tick>, i32) {
         let (low, high) = (self.low.min(self.high), self.low.max(self.high));
         if !self.logarithmic {
             let (values, step) = round_values(low, high, room);
@@ -92,7 +93,9 @@ impl Scale {
         // With few decades the plain numbers 0.2, 0.5, 1 say more than powers.
         let few = (high - low) * 3.0 <= room;
         let mut ticks = Vec::new();
-        for decade in low.floor() as i32..=high.ceil() as i32 {
+        let decades = low.floor() as i32..=high.ceil() as i32;
+        // Hundreds of decades: ticks without a label would only blacken the axis.
+        for decade in decades.filter(|decade| stride <= 10 || decade.rem_euclid(stride) == 0) {
             for &multiple in multiples {
                 let value = f64::from(multiple) * 10_f64.powi(decade);
                 let label = match multiple {
@@ -116,7 +119,7 @@ impl Scale {
 }
 
 /// `10ⁿ` with the digits of the exponent raised.
-pub(super) fn power_of_ten(exponent: i32) -> String {
+pub(crate) fn power_of_ten(exponent: i32) -> String {
     let raised = |digit: char| match digit {
         '-' => '⁻',
         '1' => '¹',

@@ -50,7 +50,7 @@ pub(super) fn left_margin(chart: &Chart, height: f64) -> f64 {
 }
 
 fn vertical_room(height: f64) -> f64 {
-    (height / 38.0).clamp(2.0, 9.0)
+    (height / 32.0).clamp(2.0, 9.0)
 }
 
 fn horizontal_room(width: f64) -> f64 {

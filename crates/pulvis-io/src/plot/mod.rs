@@ -28,14 +28,14 @@
 //! # }
 //! ```
 
-mod axis;
-mod canvas;
+pub(crate) mod axis;
+pub(crate) mod canvas;
 mod chart;
 mod draw;
 mod figure;
 mod geometry;
 mod legend;
-mod raster;
+pub(crate) mod raster;
 mod vector;
 
 pub use chart::{Axis, Chart, Series, SeriesStyle};

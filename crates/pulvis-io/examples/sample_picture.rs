@@ -1,0 +1,65 @@
+//! Renders a block of 20 000 spheres, to be looked at: `cargo run --release -p pulvis-io --example sample_picture -- <folder>`.
+#![allow(clippy::print_stderr)]
+
+use pulvis_io::picture::{OutlineBox, SphereScene, View, render_spheres};
+use pulvis_io::{ColourMap, IoError};
+use std::path::Path;
+use std::time::Instant;
+
+fn main() -> std::process::ExitCode {
+    let Some(folder) = std::env::args_os().nth(1) else {
+        eprintln!("usage: sample_picture <folder>");
+        return std::process::ExitCode::from(2);
+    };
+    match draw(folder.as_ref()) {
+        Ok(()) => std::process::ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            std::process::ExitCode::FAILURE
+        }
+    }
+}
+
+/// A heap on a grid with shaken places and sizes.
+fn draw(folder: &Path) -> Result<(), IoError> {
+    let mut state = 1_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let (mut centres, mut radii, mut values) = (Vec::new(), Vec::new(), Vec::new());
+    for number in 0..20_000 {
+        let place = [number % 32, number / 32 % 25, number / 800].map(|n| 2.0e-3 * (f64::from(n) + 0.5));
+        let centre = place.map(|x| x + 6.0e-4 * (random() - 0.5));
+        let slope = 0.052 - 0.55 * (centre[0] - 0.020).abs();
+        if centre[2] < slope {
+            values.push(0.3 * (centre[2] / 0.05).powi(2) + 0.02 * random());
+            centres.push(centre);
+            radii.push(1.0e-3 * (0.75 + 0.4 * random()));
+        }
+    }
+    let scene = SphereScene {
+        title: "Heap",
+        bar_label: "speed [m/s]",
+        boxes: &[OutlineBox { low: [0.0; 3], high: [0.064, 0.05, 0.055] }],
+        ..SphereScene::new(&centres, &radii, &values)
+    };
+    let start = Instant::now();
+    render_spheres(&folder.join("heap.png"), &scene)?;
+    eprintln!("{} spheres: {:.0} ms", centres.len(), 1.0e3 * start.elapsed().as_secs_f64());
+    let signed: Vec<f64> = centres.iter().map(|centre| 1.0e-5 * (centre[0] * 150.0).sin()).collect();
+    let few = SphereScene {
+        values: &signed[..800],
+        centres: &centres[..800],
+        radii: &radii[..800],
+        colours: ColourMap::BlueRed,
+        view: View::TOP,
+        range: Some([-1.0e-5, 1.0e-5]),
+        bar_label: "spin [rad/s]",
+        title: "",
+        width: 600,
+        height: 500,
+        ..scene
+    };
+    render_spheres(&folder.join("layer.png"), &few)
+}

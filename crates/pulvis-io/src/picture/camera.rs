@@ -1,0 +1,130 @@
+//! From the scene to the picture: an orthographic projection that shows everything.
+
+use super::{OutlineBox, SphereScene, View, furniture};
+
+type Vector = [f64; 3];
+
+/// Coordinates of the picture: right and down [pixel], and depth away from the eye in the same unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Projected {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) depth: f64,
+}
+
+/// An orthographic projection.
+#[derive(Clone, Debug)]
+pub(super) struct Camera {
+    right: Vector,
+    down: Vector,
+    forward: Vector,
+    /// Pixels per metre.
+    pub(super) scale: f64,
+    offset: [f64; 2],
+    /// Least and largest depth of the scene [pixel].
+    pub(super) depths: [f64; 2],
+}
+
+impl Camera {
+    /// Fits all spheres and boxes into the part of the picture that title and colour bar leave free.
+    pub(super) fn fit(scene: &SphereScene<'_>) -> Self {
+        let [right, down, forward] = axes(scene.view);
+        let mut camera = Self { right, down, forward, scale: 1.0, offset: [0.0; 2], depths: [0.0; 2] };
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        let mut include = |point: Projected, radius: f64| {
+            for (axis, value) in [point.x, point.y, point.depth].into_iter().enumerate() {
+                low[axis] = low[axis].min(value - radius);
+                high[axis] = high[axis].max(value + radius);
+            }
+        };
+        for (centre, radius) in visible(scene) {
+            include(camera.project(centre), radius);
+        }
+        for corner in scene.boxes.iter().filter(|outline| outline.is_finite()).flat_map(OutlineBox::corners) {
+            include(camera.project(corner), 0.0);
+        }
+        if low[0] > high[0] {
+            (low, high) = ([-1.0; 3], [1.0; 3]);
+        }
+        let [left, top, width, height] = furniture::free_area(scene);
+        let span = |axis: usize| (high[axis] - low[axis]).max(f64::MIN_POSITIVE);
+        camera.scale = (width / span(0)).min(height / span(1)).clamp(1.0e-200, 1.0e200);
+        let middle = |axis: usize| 0.5 * (low[axis] + high[axis]) * camera.scale;
+        camera.offset = [left + 0.5 * width - middle(0), top + 0.5 * height - middle(1)];
+        camera.depths = [low[2] * camera.scale, high[2] * camera.scale];
+        camera
+    }
+
+    /// A point of the scene in the picture.
+    pub(super) fn project(&self, point: Vector) -> Projected {
+        Projected {
+            x: dot(self.right, point) * self.scale + self.offset[0],
+            y: dot(self.down, point) * self.scale + self.offset[1],
+            depth: dot(self.forward, point) * self.scale,
+        }
+    }
+}
+
+/// Spheres that can be drawn: finite, positive, and small enough for the arithmetic.
+pub(super) fn visible<'a>(scene: &SphereScene<'a>) -> impl Iterator<Item = (Vector, f64)> + use<'a> {
+    scene
+        .centres
+        .iter()
+        .copied()
+        .zip(scene.radii.iter().copied())
+        .filter(|&(centre, radius)| can_be_drawn(centre, radius))
+}
+
+/// Whether a sphere is finite, positive, and small enough for the arithmetic.
+pub(super) fn can_be_drawn(centre: Vector, radius: f64) -> bool {
+    centre.iter().all(|x| x.abs() < 1.0e100) && radius > 0.0 && radius < 1.0e100
+}
+
+impl OutlineBox {
+    /// Whether the box can be drawn.
+    pub(super) fn is_finite(&self) -> bool {
+        self.low.iter().chain(&self.high).all(|x| x.abs() < 1.0e100)
+    }
+
+    /// The eight corners; bit `axis` of the number tells which end of that axis.
+    pub(super) fn corners(&self) -> [Vector; 8] {
+        std::array::from_fn(|number| {
+            std::array::from_fn(|axis| if number >> axis & 1 == 0 { self.low[axis] } else { self.high[axis] })
+        })
+    }
+}
+
+/// Unit vectors to the right, down and forward; useless input falls back to what is nearest to sense.
+fn axes(view: View) -> [Vector; 3] {
+    let forward = unit(view.direction).unwrap_or([0.0, 1.0, 0.0]);
+    // Looking along `up`: any other upright will do; y is what plan views use.
+    let candidates = [view.up, [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let right = candidates.into_iter().find_map(|up| unit(cross(forward, unit(up)?)));
+    let right = right.unwrap_or([1.0, 0.0, 0.0]);
+    [right, cross(forward, right), forward]
+}
+
+fn unit(vector: Vector) -> Option<Vector> {
+    let length = dot(vector, vector).sqrt();
+    (length.is_finite() && length > 1.0e-6).then(|| vector.map(|x| x / length))
+}
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_front_view_has_x_to_the_right_and_z_up() {
+        assert_eq!(axes(View::FRONT), [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]);
+        assert_eq!(axes(View::TOP), [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]);
+    }
+}
