@@ -11,9 +11,10 @@ pub enum FrictionReference {
     /// f_hys + kc δ, the distance from the tensile limit, without dashpot (Luding 2008).
     #[default]
     AdhesiveLimit,
-    /// |f_n| with dashpot and attraction (MercuryDPM, YADE).
+    /// |f_hys + γ dδ/dt|: with the dashpot, without the attraction, which MercuryDPM adds after
+    /// friction and YADE does not have.
     Total,
-    /// |f_hys + γ dδ/dt + kc δ| (LIGGGHTS).
+    /// |f_hys + γ dδ/dt + kc δ − f_a|: also the attraction is subtracted (LIGGGHTS).
     TotalAdhesiveLimit,
 }
 
@@ -23,7 +24,8 @@ pub enum LeverArm {
     /// a' = a − δ/2 (Luding 2008).
     #[default]
     Corrected,
-    /// a.
+    /// a. The arms then add up to more than the distance of the centres: a pair that turns as one
+    /// body slides by δ times its angle, and its angular momentum is not conserved.
     Radius,
 }
 
@@ -57,8 +59,8 @@ impl Conventions {
     pub(crate) fn friction_reference<R: Real>(&self, limit: R, elastic: R, viscous: R, attraction: R) -> R {
         match self.friction_reference {
             FrictionReference::AdhesiveLimit => limit,
-            FrictionReference::Total => (elastic + viscous + attraction).abs(),
-            FrictionReference::TotalAdhesiveLimit => (limit + viscous).abs(),
+            FrictionReference::Total => (elastic + viscous).abs(),
+            FrictionReference::TotalAdhesiveLimit => (limit + viscous + attraction).abs(),
         }
     }
 }
@@ -79,9 +81,13 @@ impl Law for Conventions {
                         name: "adhesive-limit",
                         meaning: "f_hys + k_c δ without the dashpot (Luding 2008)",
                     },
-                    Choice { name: "total", meaning: "|f_n| with dashpot and attraction (MercuryDPM, YADE)" },
                     Choice {
-                        name: "total-adhesive-limit", meaning: "|f_hys + γ dδ/dt + k_c δ| (LIGGGHTS)"
+                        name: "total",
+                        meaning: "|f_hys + γ dδ/dt|, without attraction (MercuryDPM, YADE)",
+                    },
+                    Choice {
+                        name: "total-adhesive-limit",
+                        meaning: "|f_hys + γ dδ/dt + k_c δ − f_a| (LIGGGHTS)",
                     },
                 ],
                 "adhesive-limit",
@@ -92,7 +98,7 @@ impl Law for Conventions {
                 "",
                 &[
                     Choice { name: "corrected", meaning: "a' = a − δ/2 (Luding 2008)" },
-                    Choice { name: "radius", meaning: "a" },
+                    Choice { name: "radius", meaning: "a; does not conserve angular momentum" },
                 ],
                 "corrected",
                 "the lever arms of the contact point",

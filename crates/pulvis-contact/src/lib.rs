@@ -26,6 +26,7 @@ mod model;
 pub mod noncontact;
 pub mod normal;
 mod pair;
+mod resistance;
 pub mod theory;
 pub mod viscosity;
 

@@ -4,12 +4,13 @@ use std::f64::consts::PI;
 
 use pulvis_math::{Real, Vector3};
 
-use crate::conventions::{Conventions, LeverArm, RollingLever};
+use crate::conventions::Conventions;
 use crate::energy::ContactEnergies;
-use crate::friction::{SpringMotion, SpringSlider, carried_along};
+use crate::friction::SpringSlider;
 use crate::noncontact::{self, NonContact};
-use crate::normal::{Memory, Normal, NormalLaw, NormalLawVisitor};
+use crate::normal::{Normal, NormalLaw, NormalLawVisitor};
 use crate::pair::Pair;
+use crate::resistance::Resistance;
 use crate::viscosity::{self, Viscosity};
 
 /// Everything of a contact but its normal law: chosen at run time, the same for every contact of a
@@ -124,40 +125,61 @@ impl ContactModel {
     /// Shortest duration [s] of any motion that the contact can make: π over its highest frequency,
     /// over all branches and springs, for bodies with masses [kg] and radii [m] (`None`: a wall).
     ///
-    /// Frequencies: √(k/m_r) along the normal; √(k_t (1/m_r + a_i²/I_i + a_j²/I_j)) of sliding;
-    /// L √(k (1/I_i + 1/I_j)) of rolling and torsion; γ/m_r of the dashpots. Solid spheres,
-    /// I = 2/5 m a².
+    /// Squares of the frequencies: k/m_r along the normal; k_o L² (1/I_i + 1/I_j) of torsion; and the
+    /// larger one of the two modes into which sliding, k_t (1/m_r + a_i²/I_i + a_j²/I_j), and rolling,
+    /// k_r L² (1/I_i + 1/I_j), combine where a_i/I_i differs from a_j/I_j. Dashpots count with their
+    /// rates γ/m_r and so on. Solid spheres, I = 2/5 m a².
     pub fn shortest_contact_time(&self, body_i: (f64, f64), body_j: Option<(f64, f64)>) -> f64 {
         let (mass_i, radius_i) = body_i;
-        let inertia = |(mass, radius): (f64, f64)| 0.4 * mass * radius * radius;
         let pair = match body_j {
             Some((mass_j, radius_j)) => Pair::spheres(mass_i, mass_j, radius_i, radius_j),
             None => Pair::wall(mass_i, radius_i),
         };
-        let inverse_inertia = 1.0 / inertia(body_i) + body_j.map_or(0.0, |body| 1.0 / inertia(body));
-        let arms = radius_i * radius_i / inertia(body_i)
-            + body_j.map_or(0.0, |body| body.1 * body.1 / inertia(body));
+        let modes = Modes::new(&pair, body_i, body_j);
         let laws = &self.composition;
-        let lever = pair.harmonic_radius;
         let (stiffest, own_dashpot) = self.normal.accept(Steepest(pair));
-        let normal = stiffest.max(laws.noncontact.stiffest()) / pair.reduced_mass;
-        let tangential = 1.0 / pair.reduced_mass + arms;
-        let turning = lever * lever * inverse_inertia;
-        let spring = |slider: Option<SpringSlider>, factor: f64| {
-            slider.map_or(0.0, |slider| slider.stiffness * factor)
-        };
-        let damper =
-            |slider: Option<SpringSlider>, factor: f64| slider.map_or(0.0, |slider| slider.dashpot * factor);
-        let squares = normal
-            .max(spring(laws.sliding, tangential))
-            .max(spring(laws.rolling, turning))
-            .max(spring(laws.torsion, turning));
-        let dashpot = own_dashpot + laws.viscosity.largest_coefficient(&pair);
-        let rates = (dashpot / pair.reduced_mass)
-            .max(damper(laws.sliding, tangential))
-            .max(damper(laws.rolling, turning))
-            .max(damper(laws.torsion, turning));
+        let stiffness = |slider: Option<SpringSlider>| slider.map_or(0.0, |slider| slider.stiffness);
+        let dashpot = |slider: Option<SpringSlider>| slider.map_or(0.0, |slider| slider.dashpot);
+        let squares = (stiffest.max(laws.noncontact.stiffest()) / pair.reduced_mass)
+            .max(modes.highest(stiffness(laws.sliding), stiffness(laws.rolling)))
+            .max(modes.turning * stiffness(laws.torsion));
+        let normal_dashpot = own_dashpot + laws.viscosity.largest_coefficient(&pair);
+        let rates = (normal_dashpot / pair.reduced_mass)
+            .max(modes.highest(dashpot(laws.sliding), dashpot(laws.rolling)))
+            .max(modes.turning * dashpot(laws.torsion));
         PI / squares.sqrt().max(rates)
+    }
+}
+
+/// Inverse inertias [1/kg] against which the springs of a contact work.
+struct Modes {
+    /// 1/m_r + a_i²/I_i + a_j²/I_j, of sliding.
+    sliding: f64,
+    /// L² (1/I_i + 1/I_j), of rolling and torsion.
+    turning: f64,
+    /// L (a_i/I_i − a_j/I_j): a sliding force rolls the contact unless the bodies are alike.
+    coupling: f64,
+}
+
+impl Modes {
+    fn new(pair: &Pair, body_i: (f64, f64), body_j: Option<(f64, f64)>) -> Self {
+        // A wall has a_j = 0 and 1/I_j = 0.
+        let inverse_inertia = |(mass, radius): (f64, f64)| 1.0 / (0.4 * mass * radius * radius);
+        let (radius_i, turn_i) = (body_i.1, inverse_inertia(body_i));
+        let (radius_j, turn_j) = body_j.map_or((0.0, 0.0), |body| (body.1, inverse_inertia(body)));
+        let lever = pair.harmonic_radius;
+        Self {
+            sliding: 1.0 / pair.reduced_mass + radius_i * radius_i * turn_i + radius_j * radius_j * turn_j,
+            turning: lever * lever * (turn_i + turn_j),
+            coupling: lever * (radius_i * turn_i - radius_j * turn_j),
+        }
+    }
+
+    /// The larger eigenvalue of the coupled motion for the coefficients of sliding and rolling.
+    fn highest(&self, sliding: f64, rolling: f64) -> f64 {
+        let (first, second) = (sliding * self.sliding, rolling * self.turning);
+        let coupling = sliding * rolling * self.coupling * self.coupling;
+        0.5 * (first + second + ((first - second) * (first - second) + 4.0 * coupling).sqrt())
     }
 }
 
@@ -218,123 +240,17 @@ impl Composition {
                 viscous,
                 attraction.force,
             );
-            let reference = reference.keep_where(touching);
-            self.resist(pair, motion, overlap, reference, time_step, memory, &mut response);
-        }
-        response
-    }
-
-    /// Adds sliding, rolling and torsion. Luding 2008, section 2.3-2.4.
-    #[allow(clippy::too_many_arguments)] // one call site; the arguments are what the normal part left
-    #[inline(always)]
-    fn resist<R: Real, M: Memory<R>>(
-        &self,
-        pair: &Pair<R>,
-        motion: &PairMotion<R>,
-        overlap: R,
-        friction_reference: R,
-        time_step: f64,
-        memory: &mut ContactMemory<R, M>,
-        response: &mut ContactResponse<R>,
-    ) {
-        let touching = motion.overlap.gt(R::zero());
-        let dt = R::splat(time_step);
-        let half_step = R::splat(0.5 * time_step);
-        let normal = motion.normal;
-        let closing_mid = -motion.velocity_mid.dot(normal);
-        let sideways = motion.velocity_mid + normal * closing_mid;
-        // A contact that began within the step has moved for a part of the step only.
-        let elapsed = (dt * (overlap / overlap.max(closing_mid * dt))).keep_where(touching);
-        // Normal and lever arms at mid-step. With those of the end of the step the springs would
-        // take in and give back work that no force does, to first order in the step.
-        let normal_mid = normal - sideways * (half_step * motion.inverse_distance);
-        let sideways_mid = sideways * (R::one() - half_step * motion.inverse_distance * closing_mid);
-        let arm = |radius: R, overlap: R| match self.conventions.lever_arm {
-            LeverArm::Corrected => radius - (R::splat(0.5) * overlap).keep_where(radius.gt(R::zero())),
-            LeverArm::Radius => radius,
-        };
-        let overlap_mid = overlap - half_step * closing_mid;
-        let twist = R::splat(0.5) * (motion.spin_i_mid + motion.spin_j_mid).dot(normal) * elapsed;
-        let carried = |spring: Vector3<R>| {
-            let turned = spring.dot(motion.velocity_mid) * motion.inverse_distance * elapsed;
-            carried_along(self.conventions.spring_rotation, spring, normal, turned, twist)
-        };
-
-        if let Some(slider) = &self.sliding {
-            let (arm_i, arm_j) = (arm(motion.radius_i, overlap), arm(motion.radius_j, overlap));
-            let (mid_i, mid_j) = (arm(motion.radius_i, overlap_mid), arm(motion.radius_j, overlap_mid));
-            let spins = motion.spin_i * arm_i + motion.spin_j * arm_j;
-            let spins_mid = motion.spin_i_mid * mid_i + motion.spin_j_mid * mid_j;
-            let velocity = motion.velocity.tangential_to(normal) + normal.cross(spins);
-            let step = (sideways_mid + normal_mid.cross(spins_mid)) * elapsed;
-            memory.sliding = carried(memory.sliding);
-            let answer = slider.respond(
-                &SpringMotion {
-                    velocity: velocity.keep_where(touching),
-                    displacement: step.tangential_to(normal).keep_where(touching),
-                    friction_reference,
-                },
-                &mut memory.sliding,
-            );
-            let moment = normal.cross(answer.force);
-            response.force += answer.force;
-            response.torque_i -= moment * arm_i;
-            response.torque_j -= moment * arm_j;
-            response.energies.elastic_sliding = answer.stored_energy;
-            response.energies.dissipated_sliding = answer.dissipated_slip;
-            response.energies.viscous_power += answer.viscous_power;
-        }
-        if self.rolling.is_none() && self.torsion.is_none() {
-            return;
-        }
-        let lever = self.rolling_lever(pair, arm(motion.radius_i, overlap), arm(motion.radius_j, overlap));
-        let spin = motion.spin_i - motion.spin_j;
-        let spin_mid = motion.spin_i_mid - motion.spin_j_mid;
-        if let Some(slider) = &self.rolling {
-            let step = normal_mid.cross(spin_mid) * -(lever * elapsed);
-            memory.rolling = carried(memory.rolling);
-            let answer = slider.respond(
-                &SpringMotion {
-                    velocity: (normal.cross(spin) * -lever).keep_where(touching),
-                    displacement: step.tangential_to(normal).keep_where(touching),
-                    friction_reference,
-                },
-                &mut memory.rolling,
-            );
-            let torque = normal.cross(answer.force) * lever;
-            response.torque_i += torque;
-            response.torque_j -= torque;
-            response.energies.elastic_rolling = answer.stored_energy;
-            response.energies.dissipated_rolling = answer.dissipated_slip;
-            response.energies.viscous_power += answer.viscous_power;
-        }
-        if let Some(slider) = &self.torsion {
-            let answer = slider.respond_along(
-                &SpringMotion {
-                    velocity: (normal.dot(spin) * lever).keep_where(touching),
-                    displacement: (normal_mid.dot(spin_mid) * lever * elapsed).keep_where(touching),
-                    friction_reference,
-                },
-                &mut memory.torsion,
-            );
-            let torque = normal * (lever * answer.force);
-            response.torque_i += torque;
-            response.torque_j -= torque;
-            response.energies.elastic_torsion = answer.stored_energy;
-            response.energies.dissipated_torsion = answer.dissipated_slip;
-            response.energies.viscous_power += answer.viscous_power;
-        }
-    }
-
-    /// The length L of the rolling and torsion velocities [m].
-    #[inline(always)]
-    fn rolling_lever<R: Real>(&self, pair: &Pair<R>, arm_i: R, arm_j: R) -> R {
-        match self.conventions.rolling_lever {
-            RollingLever::Harmonic => pair.harmonic_radius,
-            RollingLever::Reduced => {
-                let at_wall = arm_j.le(R::zero());
-                R::select(at_wall, arm_i, arm_i * arm_j / (arm_i + arm_j))
+            let step = Resistance::new(&self.conventions, pair, motion, reference, time_step);
+            if let Some(slider) = &self.sliding {
+                step.slide(slider, &mut memory.sliding, &mut response);
+            }
+            if let Some(slider) = &self.rolling {
+                step.roll(slider, &mut memory.rolling, &mut response);
+            }
+            if let Some(slider) = &self.torsion {
+                step.twist(slider, &mut memory.torsion, &mut response);
             }
         }
+        response
     }
 }

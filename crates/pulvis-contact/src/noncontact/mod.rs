@@ -47,17 +47,15 @@ pub trait NonContactLaw: Law {
 #[inline(always)]
 fn linear_tail<R: Real>(adhesion_force: f64, slope: f64, overlap: R) -> (R, R) {
     let f_a = R::splat(adhesion_force);
-    let in_contact = overlap.gt(R::zero());
     let depth = overlap.max(R::zero());
     if slope.is_infinite() {
-        return ((-f_a).keep_where(in_contact), -(f_a * depth));
+        return ((-f_a).keep_where(overlap.gt(R::zero())), -(f_a * depth));
     }
-    // How far the tail has been entered, from 0 at δ_a to fa/kca in contact.
-    let reach = R::splat(adhesion_force / slope);
-    let entered = (overlap + reach).max(R::zero()).min(reach);
-    let force = -(R::splat(slope) * entered);
-    let potential = R::splat(-0.5 * slope) * entered * entered - f_a * depth;
-    (R::select(in_contact, -f_a, force), potential)
+    // Written so that the pull is f_a to the last bit at touch and zero at δ_a.
+    let within_reach = overlap.gt(R::splat(-(adhesion_force / slope)));
+    let pull = (f_a + R::splat(slope) * overlap).max(R::zero()).min(f_a).keep_where(within_reach);
+    let potential = -(R::splat(0.5) * pull * (pull / R::splat(slope))) - f_a * depth;
+    (-pull, potential)
 }
 
 macro_rules! noncontact_laws {

@@ -93,14 +93,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_force_is_minus_the_slope_of_the_potential() {
+    fn the_repulsion_is_the_slope_of_the_potential_over_the_overlap() {
         let law = Reversible { f_a: 1e-4, kc_a: 50.0 };
         let h = 1e-10;
         for overlap in [-2.5e-6, -1.9e-6, -0.3e-6, 0.4e-6, 3e-6] {
             let at = |overlap: f64| law.respond(overlap, &mut 0.0);
             let slope = (at(overlap + h).potential - at(overlap - h).potential) / (2.0 * h);
             // Central differences of a parabola are exact up to round-off: 1e-16 fa²/kca / h.
-            assert!((at(overlap).force - -slope * -1.0).abs() < 1e-9, "at {overlap}");
+            assert!((at(overlap).force - slope).abs() < 1e-9, "at {overlap}");
         }
     }
 

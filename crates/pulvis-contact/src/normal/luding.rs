@@ -277,9 +277,12 @@ impl NormalLaw for Luding {
         let loaded = memory.overlap_max.max(overlap.min(limit));
         let k2 = self.k1 + (self.kp - self.k1) * self.hardening(loaded, self.inverse_plastic_limit(pair));
         let line = k2 * overlap - (k2 - self.k1) * loaded;
+        // After the response the point lies on the tensile limit to round-off of the line's two
+        // terms, not below it.
+        let round_off = 8.0 * f64::EPSILON * k2 * (overlap + loaded);
         if overlap <= 0.0 {
             (0, "open")
-        } else if line < -(self.kc * overlap) {
+        } else if line < -(self.kc * overlap) + round_off {
             (1, "kc")
         } else if overlap >= limit {
             (2, "limit")

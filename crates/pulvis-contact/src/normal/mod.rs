@@ -39,7 +39,8 @@ pub struct NormalResponse<R = f64> {
     /// What friction learns of the normal force: the distance f_hys + k_c δ from the law's tensile
     /// limit, never negative [N].
     pub friction_reference: R,
-    /// How far the contact has hardened, (k2 − k1)/(kp − k1), from 0 (virgin) to 1; elastic laws: 1.
+    /// How far the contact has hardened, (k2 − k1)/(kp − k1), from 0 (virgin) to 1; laws that do not
+    /// harden: 1.
     pub hardening: R,
     /// The overlap that the law takes as its scale (Luding: δ_p; elastic laws: a12) [m].
     pub overlap_scale: R,
@@ -71,7 +72,8 @@ pub trait NormalLaw: Law {
     }
 
     /// The name of the branch on which the point (overlap [m], memory) lies, and its number, which
-    /// differs between branches: where it changes, the force may have a kink.
+    /// differs between branches: where it changes, the force may have a kink. The memory may be the
+    /// one before or the one after the response at that overlap.
     fn branch(&self, pair: &Pair<f64>, overlap: f64, memory: &Self::Memory<f64>) -> (u8, &'static str);
 
     /// The steepest slope |df/dδ| of any branch [N/m].

@@ -9,7 +9,9 @@ use crate::pair::Pair;
 
 /// Dashpot proportional to k2 − k1: f = γ_0 (k2 − k1)/(kp − k1) dδ/dt.
 ///
-/// A virgin contact has no dashpot, so that the force does not jump at first touch.
+/// A virgin contact has no dashpot, so that the force does not jump at first touch. Laws that do not
+/// harden (`linear`, `luding` with constant k2) have the full γ_0; `luding` with kp = k1 has none, the
+/// limit of a plastic range that is never filled.
 ///
 /// # Source
 /// A. Singh, V. Magnanimo, S. Luding, *Sticking of adhesive particles in elasto-plastic
@@ -35,7 +37,7 @@ impl Law for Hardening {
             "dashpot coefficient of a fully plastic contact (k2 = kp)",
         )],
         memory: &[],
-        closed_form: "equals the constant dashpot for elastic contacts (S1 eq. 4)",
+        closed_form: "equals the constant dashpot where k2 = kp: restitution exp(−π h/ω) of the linear law (S1 eq. 4)",
         example: "law = \"hardening\"\ngamma_0 = \"5e-3 kg/s\"",
     };
 

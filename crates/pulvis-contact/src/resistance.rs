@@ -1,0 +1,193 @@
+//! How a contact's springs against sliding, rolling and torsion follow the two bodies.
+
+use pulvis_math::{Real, Vector3};
+
+use crate::conventions::{Conventions, LeverArm, RollingLever};
+use crate::energy::ContactEnergies;
+use crate::friction::{FrictionResponse, SpringMotion, SpringRotation, SpringSlider, carried_along};
+use crate::model::{ContactResponse, PairMotion};
+use crate::pair::Pair;
+
+/// One step of a contact as its springs see it. Luding 2008, section 2.3-2.4.
+///
+/// Displacements are taken with the normal and the lever arms of mid-step. With those of the end of
+/// the step the springs would take in and give back work that no force does, to first order in the
+/// step.
+pub(crate) struct Resistance<'a, R: Real> {
+    conventions: &'a Conventions,
+    pair: &'a Pair<R>,
+    motion: &'a PairMotion<R>,
+    touching: R::Mask,
+    friction_reference: R,
+    overlap: R,
+    overlap_mid: R,
+    normal_mid: Vector3<R>,
+    sideways_mid: Vector3<R>,
+    elapsed: R,
+}
+
+impl<'a, R: Real> Resistance<'a, R> {
+    /// The step of `time_step` [s] that led to `motion`; friction refers to the normal force
+    /// `friction_reference` [N].
+    #[inline(always)]
+    pub(crate) fn new(
+        conventions: &'a Conventions,
+        pair: &'a Pair<R>,
+        motion: &'a PairMotion<R>,
+        friction_reference: R,
+        time_step: f64,
+    ) -> Self {
+        let touching = motion.overlap.gt(R::zero());
+        let overlap = motion.overlap.keep_where(touching);
+        let dt = R::splat(time_step);
+        let closing = -motion.velocity_mid.dot(motion.normal);
+        let sideways = motion.velocity_mid + motion.normal * closing;
+        // A contact that began within the step has moved for a part of the step only.
+        let elapsed = (dt * (overlap / overlap.max(closing * dt))).keep_where(touching);
+        let half = R::splat(0.5) * elapsed;
+        let half_turn = half * motion.inverse_distance;
+        Self {
+            conventions,
+            pair,
+            motion,
+            touching,
+            friction_reference: friction_reference.keep_where(touching),
+            overlap,
+            overlap_mid: overlap - half * closing,
+            normal_mid: motion.normal - sideways * half_turn,
+            sideways_mid: sideways * (R::one() - half_turn * closing),
+            elapsed,
+        }
+    }
+
+    /// Adds the force and the torques of the sliding spring.
+    #[inline(always)]
+    pub(crate) fn slide(
+        &self,
+        slider: &SpringSlider,
+        spring: &mut Vector3<R>,
+        response: &mut ContactResponse<R>,
+    ) {
+        let (motion, normal) = (self.motion, self.motion.normal);
+        let (arm_i, arm_j) = self.arms(self.overlap);
+        let (mid_i, mid_j) = self.arms(self.overlap_mid);
+        let spins = motion.spin_i * arm_i + motion.spin_j * arm_j;
+        let spins_mid = motion.spin_i_mid * mid_i + motion.spin_j_mid * mid_j;
+        let velocity = motion.velocity.tangential_to(normal) + normal.cross(spins);
+        let step = (self.sideways_mid + self.normal_mid.cross(spins_mid)) * self.elapsed;
+        let answer = self.stretch(slider, velocity, step, spring);
+        let moment = normal.cross(answer.force);
+        response.force += answer.force;
+        response.torque_i -= moment * arm_i;
+        response.torque_j -= moment * arm_j;
+        let energies = &mut response.energies;
+        energies.elastic_sliding = answer.stored_energy;
+        energies.dissipated_sliding = answer.dissipated_slip;
+        energies.viscous_power += answer.viscous_power;
+    }
+
+    /// Adds the torques of the rolling spring.
+    #[inline(always)]
+    pub(crate) fn roll(
+        &self,
+        slider: &SpringSlider,
+        spring: &mut Vector3<R>,
+        response: &mut ContactResponse<R>,
+    ) {
+        let (motion, normal) = (self.motion, self.motion.normal);
+        let (lever, lever_mid) = (self.lever(self.overlap), self.lever(self.overlap_mid));
+        let velocity = normal.cross(motion.spin_i - motion.spin_j) * -lever;
+        let spin_mid = motion.spin_i_mid - motion.spin_j_mid;
+        let step = self.normal_mid.cross(spin_mid) * -(lever_mid * self.elapsed);
+        let answer = self.stretch(slider, velocity, step, spring);
+        let energies = &mut response.energies;
+        energies.elastic_rolling = answer.stored_energy;
+        energies.dissipated_rolling = answer.dissipated_slip;
+        turn(normal.cross(answer.force) * lever, answer.viscous_power, response);
+    }
+
+    /// Adds the torques of the torsion spring.
+    #[inline(always)]
+    pub(crate) fn twist(&self, slider: &SpringSlider, spring: &mut R, response: &mut ContactResponse<R>) {
+        let (motion, normal) = (self.motion, self.motion.normal);
+        let (lever, lever_mid) = (self.lever(self.overlap), self.lever(self.overlap_mid));
+        let velocity = normal.dot(motion.spin_i - motion.spin_j) * lever;
+        let spin_mid = motion.spin_i_mid - motion.spin_j_mid;
+        let step = self.normal_mid.dot(spin_mid) * lever_mid * self.elapsed;
+        let answer = slider.respond_along(
+            &SpringMotion {
+                velocity: velocity.keep_where(self.touching),
+                displacement: step.keep_where(self.touching),
+                friction_reference: self.friction_reference,
+            },
+            spring,
+        );
+        let energies: &mut ContactEnergies<R> = &mut response.energies;
+        energies.elastic_torsion = answer.stored_energy;
+        energies.dissipated_torsion = answer.dissipated_slip;
+        turn(normal * (lever * answer.force), answer.viscous_power, response);
+    }
+
+    /// Carries a spring of the tangent plane along and advances it. What the spring loses on the
+    /// way by convention (`project`, `rate`) is booked as slip; rescaled springs lose nothing.
+    #[inline(always)]
+    fn stretch(
+        &self,
+        slider: &SpringSlider,
+        velocity: Vector3<R>,
+        step: Vector3<R>,
+        spring: &mut Vector3<R>,
+    ) -> FrictionResponse<Vector3<R>, R> {
+        let (motion, normal) = (self.motion, self.motion.normal);
+        let rotation = self.conventions.spring_rotation;
+        let before = *spring;
+        let turned = before.dot(motion.velocity_mid) * motion.inverse_distance * self.elapsed;
+        let twist = R::splat(0.5) * (motion.spin_i_mid + motion.spin_j_mid).dot(normal) * self.elapsed;
+        let carried = carried_along(rotation, before, normal, turned, twist);
+        *spring = carried;
+        let mut answer = slider.respond(
+            &SpringMotion {
+                velocity: velocity.keep_where(self.touching),
+                displacement: step.tangential_to(normal).keep_where(self.touching),
+                friction_reference: self.friction_reference,
+            },
+            spring,
+        );
+        if matches!(rotation, SpringRotation::Project | SpringRotation::Rate) {
+            let half = R::splat(0.5 * slider.stiffness);
+            answer.dissipated_slip += half * (before.norm_squared() - carried.norm_squared());
+        }
+        answer
+    }
+
+    /// The distances of the contact point from the two centres [m].
+    #[inline(always)]
+    fn arms(&self, overlap: R) -> (R, R) {
+        let arm = |radius: R| match self.conventions.lever_arm {
+            LeverArm::Corrected => radius - (R::splat(0.5) * overlap).keep_where(radius.gt(R::zero())),
+            LeverArm::Radius => radius,
+        };
+        (arm(self.motion.radius_i), arm(self.motion.radius_j))
+    }
+
+    /// The length L of the rolling and torsion velocities [m].
+    #[inline(always)]
+    fn lever(&self, overlap: R) -> R {
+        match self.conventions.rolling_lever {
+            RollingLever::Harmonic => self.pair.harmonic_radius,
+            RollingLever::Reduced => {
+                let (arm_i, arm_j) = self.arms(overlap);
+                let at_wall = arm_j.le(R::zero());
+                R::select(at_wall, arm_i, arm_i * arm_j / (arm_i + arm_j))
+            }
+        }
+    }
+}
+
+/// Adds a torque on i, its opposite on j, and the power of the dashpot.
+#[inline(always)]
+fn turn<R: Real>(torque: Vector3<R>, viscous_power: R, response: &mut ContactResponse<R>) {
+    response.torque_i += torque;
+    response.torque_j -= torque;
+    response.energies.viscous_power += viscous_power;
+}
