@@ -48,9 +48,9 @@ pub enum IoError {
     /// A frame was given a time that is not a number or does not follow its predecessor.
     #[error("frame time {time} s does not follow {previous} s; give finite, increasing times")]
     FrameTime {
-        /// The refused time [s].
+        /// The refused time \[s\].
         time: f64,
-        /// Time of the frame before [s]; minus infinity for the first.
+        /// Time of the frame before \[s\]; minus infinity for the first.
         previous: f64,
     },
     /// The index of an earlier run cannot be understood.
@@ -76,13 +76,13 @@ pub enum IoError {
         "a picture of {width} x {height} pixels cannot be drawn; choose each side between {least} and {most}"
     )]
     PictureSize {
-        /// Width asked for [pixel].
+        /// Width asked for \[pixel\].
         width: u32,
-        /// Height asked for [pixel].
+        /// Height asked for \[pixel\].
         height: u32,
-        /// Smallest side [pixel].
+        /// Smallest side \[pixel\].
         least: u32,
-        /// Largest side [pixel].
+        /// Largest side \[pixel\].
         most: u32,
     },
     /// The drawing library failed.

@@ -4,7 +4,7 @@ use super::{OutlineBox, SphereScene, View, furniture};
 
 type Vector = [f64; 3];
 
-/// Coordinates of the picture: right and down [pixel], and depth away from the eye in the same unit.
+/// Coordinates of the picture: right and down \[pixel\], and depth away from the eye in the same unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Projected {
     pub(super) x: f64,
@@ -21,7 +21,7 @@ pub(super) struct Camera {
     /// Pixels per metre.
     pub(super) scale: f64,
     offset: [f64; 2],
-    /// Least and largest depth of the scene [pixel].
+    /// Least and largest depth of the scene \[pixel\].
     pub(super) depths: [f64; 2],
 }
 

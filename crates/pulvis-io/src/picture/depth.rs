@@ -19,7 +19,7 @@ pub(super) struct DepthBuffer {
     /// Samples per row.
     pub(super) width: usize,
     pub(super) height: usize,
-    /// Depth of what is seen [pixel]; infinite for the background.
+    /// Depth of what is seen \[pixel\]; infinite for the background.
     pub(super) depth: Vec<f32>,
     /// Number of the sphere that is seen, [`EDGE`] or [`NOTHING`].
     pub(super) owner: Vec<u32>,

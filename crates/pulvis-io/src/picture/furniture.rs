@@ -12,7 +12,7 @@ const INK: Colour = Colour::grey(0x22);
 /// Drawn pixels per pixel of the picture, for smooth edges.
 const OVERSAMPLING: u32 = 3;
 
-/// Lengths that depend on the size of the picture [pixel].
+/// Lengths that depend on the size of the picture \[pixel\].
 struct Layout {
     font: f64,
     margin: f64,
@@ -31,7 +31,7 @@ fn layout(scene: &SphereScene<'_>) -> Layout {
     Layout { font, margin, strip: [width - strip, strip], title }
 }
 
-/// Left, top, width and height of the part of the picture left for the spheres [pixel].
+/// Left, top, width and height of the part of the picture left for the spheres \[pixel\].
 pub(super) fn free_area(scene: &SphereScene<'_>) -> [f64; 4] {
     let Layout { margin, strip: [right, _], title, .. } = layout(scene);
     let height = f64::from(scene.height) - title;

@@ -55,18 +55,18 @@ impl View {
 /// A box along the axes, shown by its edges: a wall or a periodic cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutlineBox {
-    /// Lower corner [m].
+    /// Lower corner \[m\].
     pub low: [f64; 3],
-    /// Upper corner [m].
+    /// Upper corner \[m\].
     pub high: [f64; 3],
 }
 
 /// What to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct SphereScene<'a> {
-    /// Centre of each sphere [m]; spheres with a coordinate or radius that is not finite are left out.
+    /// Centre of each sphere \[m\]; spheres with a coordinate or radius that is not finite are left out.
     pub centres: &'a [[f64; 3]],
-    /// Radius of each sphere [m].
+    /// Radius of each sphere \[m\].
     pub radii: &'a [f64],
     /// The quantity that gives each sphere its colour; not-a-number is grey.
     pub values: &'a [f64],
@@ -76,9 +76,9 @@ pub struct SphereScene<'a> {
     pub colours: ColourMap,
     /// Where one looks from.
     pub view: View,
-    /// Size of the picture [pixel].
+    /// Size of the picture \[pixel\].
     pub width: u32,
-    /// Size of the picture [pixel].
+    /// Size of the picture \[pixel\].
     pub height: u32,
     /// Heading; empty for none.
     pub title: &'a str,
@@ -89,7 +89,7 @@ pub struct SphereScene<'a> {
 }
 
 impl<'a> SphereScene<'a> {
-    /// Smallest and largest side of a picture [pixel].
+    /// Smallest and largest side of a picture \[pixel\].
     const SIDES: [u32; 2] = [64, 8192];
 
     /// Spheres seen obliquely, in viridis, 1200 x 900 pixels, without title, colour bar and boxes.

@@ -66,7 +66,7 @@ struct Light<'a> {
 struct Probes {
     /// Distances right and down [sample].
     offsets: [(isize, isize); PROBES],
-    /// Radius of the probed disc [pixel].
+    /// Radius of the probed disc \[pixel\].
     reach: f32,
 }
 

@@ -60,7 +60,7 @@ impl Series {
 /// One axis: what it shows and over which range.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
-    /// Quantity and unit: "force [N]".
+    /// Quantity and unit: "force \[N\]".
     pub label: String,
     /// Whether equal ratios have equal lengths.
     pub logarithmic: bool,
@@ -86,14 +86,14 @@ impl Chart {
         Self { title: title.into(), ..Self::default() }
     }
 
-    /// Labels the horizontal axis; write the unit: "time [s]".
+    /// Labels the horizontal axis; write the unit: "time \[s\]".
     #[must_use]
     pub fn x_label(mut self, label: impl Into<String>) -> Self {
         self.x.label = label.into();
         self
     }
 
-    /// Labels the vertical axis; write the unit: "force [N]".
+    /// Labels the vertical axis; write the unit: "force \[N\]".
     #[must_use]
     pub fn y_label(mut self, label: impl Into<String>) -> Self {
         self.y.label = label.into();

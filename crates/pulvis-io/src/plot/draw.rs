@@ -4,25 +4,25 @@ use super::axis::{Scale, Tick, power_of_ten};
 use super::canvas::{Across, Along, Canvas, Setting, text_width};
 use super::chart::{Chart, SeriesStyle};
 use super::geometry::{Point, Rectangle, dashes, visible_pieces};
-use super::legend;
+use super::{legend, placing};
 use crate::{Colour, IoError};
 use plotters::prelude::DrawingBackend;
 
-/// Heights of the fonts [pt].
+/// Heights of the fonts \[pt\].
 pub(super) const TICK_FONT: f64 = 11.0;
 const LABEL_FONT: f64 = 12.5;
 const TITLE_FONT: f64 = 14.0;
 
-/// Widths of the lines [pt].
+/// Widths of the lines \[pt\].
 pub(super) const CURVE: f64 = 1.7;
 const FRAME: f64 = 0.9;
 const GRID: f64 = 0.6;
 
-/// Lengths of ticks, which point inwards [pt].
+/// Lengths of ticks, which point inwards \[pt\].
 const TICK: f64 = 5.0;
 const MINOR_TICK: f64 = 2.5;
 
-/// Dash and gap of dashed curves [pt].
+/// Dash and gap of dashed curves \[pt\].
 pub(super) const DASH: (f64, f64) = (6.0, 3.5);
 
 const INK: Colour = Colour::grey(0x22);
@@ -37,11 +37,13 @@ pub(super) struct Panel<'a> {
     pub(super) chart: &'a Chart,
     /// The rectangle between the axes.
     pub(super) frame: Rectangle,
+    /// Room at the right of the frame for a legend \[pt\].
+    pub(super) room_right: f64,
     x: Scale,
     y: Scale,
 }
 
-/// Room that the labels of the vertical axis of a panel need [pt].
+/// Room that the labels of the vertical axis of a panel need \[pt\].
 pub(super) fn left_margin(chart: &Chart, height: f64) -> f64 {
     let (ticks, _) = vertical_scale(chart).ticks(vertical_room(height - 60.0));
     let widest = ticks.iter().map(|tick| text_width(&tick.label, TICK_FONT)).fold(0.0, f64::max);
@@ -67,7 +69,7 @@ fn vertical_scale(chart: &Chart) -> Scale {
 
 impl<'a> Panel<'a> {
     /// Divides `outer` into margins and frame.
-    pub(super) fn new(chart: &'a Chart, outer: Rectangle, left: f64) -> Self {
+    pub(super) fn new(chart: &'a Chart, outer: Rectangle, left: f64, room_right: f64) -> Self {
         let abscissas = chart.series.iter().flat_map(|series| &series.points).map(|&(x, _)| x);
         let x = Scale::new(&chart.x, abscissas.chain(chart.markers.iter().map(|&(x, _)| x)));
         let title = if chart.title.is_empty() { 14.0 } else { 14.0 + TITLE_FONT + 6.0 };
@@ -75,10 +77,10 @@ impl<'a> Panel<'a> {
         let frame = Rectangle {
             left: outer.left + left,
             top: outer.top + title,
-            right: outer.right - 20.0,
+            right: outer.right - 20.0 - room_right,
             bottom: outer.bottom - label - TICK_FONT - 14.0,
         };
-        Self { chart, frame, x, y: vertical_scale(chart) }
+        Self { chart, frame, room_right, x, y: vertical_scale(chart) }
     }
 
     /// Draws everything, from the back to the front.
@@ -114,12 +116,12 @@ impl<'a> Panel<'a> {
         points.filter_map(|&point| self.place(point)).filter(|&point| self.frame.contains(point))
     }
 
-    /// Abscissa, upper end and length of each marker's label.
-    pub(super) fn marker_labels(&self) -> impl Iterator<Item = (f64, f64, f64)> {
-        self.chart.markers.iter().filter_map(|(value, label)| {
+    /// Abscissa, place of the label, and label of each marker inside the frame.
+    pub(super) fn marker_labels(&self, places: &[Point]) -> impl Iterator<Item = (f64, Rectangle, &str)> {
+        self.chart.markers.iter().filter_map(move |(value, label)| {
             let place = self.x.place(*value).filter(|place| (0.0..=1.0).contains(place))?;
             let x = self.frame.left + place * self.frame.width();
-            Some((x, self.frame.top, 8.0 + text_width(label, TICK_FONT)))
+            Some((x, placing::marker_label(self.frame, x, label, places), label.as_str()))
         })
     }
 
@@ -150,21 +152,14 @@ impl<'a> Panel<'a> {
     }
 
     fn draw_markers<DB: DrawingBackend>(&self, canvas: &Canvas<DB>) -> Result<(), IoError> {
-        let frame = self.frame;
-        for (value, label) in &self.chart.markers {
-            let Some(place) = self.x.place(*value).filter(|place| (0.0..=1.0).contains(place)) else {
-                continue;
-            };
-            let x = frame.left + place * frame.width();
-            for dash in dashes(&[(x, frame.bottom), (x, frame.top)], 3.0, 3.0) {
+        let (along, across) = (Along::End, Across::Top);
+        let setting = Setting { size: TICK_FONT, colour: MARKER_INK, along, across, upwards: true };
+        for (x, place, label) in self.marker_labels(&placing::occupied(self)) {
+            for dash in dashes(&[(x, self.frame.bottom), (x, self.frame.top)], 3.0, 3.0) {
                 canvas.line(&dash, MARKER_INK, 1.1)?;
             }
-            // Right of its line, or left of it where there is no room.
-            let inside = x + TICK_FONT + 6.0 < frame.right;
-            let (x, across) = if inside { (x + 3.0, Across::Top) } else { (x - 3.0, Across::Bottom) };
-            let along = Along::End;
-            let setting = Setting { size: TICK_FONT, colour: MARKER_INK, along, across, upwards: true };
-            canvas.text((x, frame.top + 8.0), label, setting)?;
+            // The end of a text that runs upwards is its upper end.
+            canvas.text((place.left, place.top), label, setting)?;
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use super::canvas::{Across, Along, Canvas, Setting};
 use super::chart::Chart;
 use super::draw::{self, Panel};
 use super::geometry::Rectangle;
-use super::{raster, vector};
+use super::{legend, raster, vector};
 use crate::{Colour, IoError};
 use plotters::prelude::DrawingBackend;
 use std::path::Path;
@@ -32,10 +32,10 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Smallest and largest side of a figure [pt].
+    /// Smallest and largest side of a figure \[pt\].
     const SIDES: [u32; 2] = [120, 4000];
 
-    /// Width unless told otherwise [pt].
+    /// Width unless told otherwise \[pt\].
     const WIDTH: u32 = 640;
 
     /// A figure without charts.
@@ -57,7 +57,7 @@ impl Figure {
         self
     }
 
-    /// Sets the size of the whole figure [pt]; a PNG has two pixels per point.
+    /// Sets the size of the whole figure \[pt\]; a PNG has two pixels per point.
     #[must_use]
     pub fn sized(mut self, width: u32, height: u32) -> Self {
         self.size = Some((width, height));
@@ -84,7 +84,7 @@ impl Figure {
         (format.write)(self, path)
     }
 
-    /// Width and height [pt].
+    /// Width and height \[pt\].
     pub(super) fn size(&self) -> (u32, u32) {
         let automatic = match self.panels.len() {
             0 | 1 => 420,
@@ -110,10 +110,85 @@ impl Figure {
         let share = (bottom - top) / self.panels.len().max(1) as f64;
         // One left margin for all, so that axes with the same quantity lie above one another.
         let left = self.panels.iter().map(|chart| draw::left_margin(chart, share)).fold(0.0, f64::max);
-        self.panels.iter().enumerate().try_for_each(|(number, chart)| {
+        let panel = |number: usize, room_right: f64| {
             let top = top + share * number as f64;
             let outer = Rectangle { left: 0.0, top, right, bottom: top + share };
-            Panel::new(chart, outer, left).draw(canvas)
-        })
+            Panel::new(&self.panels[number], outer, left, room_right)
+        };
+        let all = 0..self.panels.len();
+        let room_right =
+            all.clone().map(|number| legend::width_outside(&panel(number, 0.0))).fold(0.0, f64::max);
+        all.into_iter().try_for_each(|number| panel(number, room_right).draw(canvas))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+    use super::*;
+    use crate::plot::Series;
+
+    /// Charts that a careless caller could make.
+    fn strange() -> Figure {
+        let far =
+            [(f64::MIN, 1.0), (f64::NAN, 2.0), (0.0, f64::INFINITY), (1.0, 1.0e299), (5e-324, -1.0e299)];
+        let styles = || {
+            [Series::line("line", far), Series::dashed("dashed", far), Series::points("points", far)]
+                .into_iter()
+        };
+        let filled =
+            |chart: Chart| styles().fold(chart, Chart::series).marker(f64::NAN, "").marker(0.5, "half");
+        Figure::new()
+            .title("<strange> & \"quoted\" \u{1F600}")
+            .panel(Chart::default())
+            .panel(Chart::new("empty").series(Series::line("", [])).series(Series::points("none", [])))
+            .panel(filled(Chart::new("linear").zero_line()))
+            .panel(filled(Chart::new("logarithmic").log_x().log_y().zero_line()))
+            .panel(filled(Chart::new("narrow").x_range(0.0, 1.0e-200).y_range(2.0, 1.0)))
+            .panel(filled(Chart::new("fixed").x_range(f64::NAN, 1.0).y_range(3.0, 3.0)))
+    }
+
+    #[test]
+    fn nothing_that_can_be_plotted_panics_in_any_format() {
+        let folder = tempfile::tempdir().unwrap();
+        for format in FORMATS {
+            let path = folder.path().join("strange").with_extension(format.extension);
+            strange().write(&path).unwrap();
+            strange().sized(120, 120).write(&path).unwrap();
+            Figure::new().write(&path).unwrap();
+        }
+    }
+
+    #[test]
+    fn a_png_has_two_pixels_per_point_and_shows_the_curve_in_its_colour() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("chart.png");
+        let curve = Series::line("", [(0.0, 0.0), (1.0, 1.0)]);
+        Figure::new().panel(Chart::new("").series(curve)).sized(200, 150).write(&path).unwrap();
+        let image = image::open(&path).unwrap().to_rgb8();
+        assert_eq!(image.dimensions(), (400, 300));
+        let Colour { red, green, blue } = Colour::palette(0);
+        let count = image.pixels().filter(|pixel| pixel.0 == [red, green, blue]).count();
+        assert!(count > 300, "a diagonal over most of the picture: {count} pixels");
+        assert_eq!(image.get_pixel(0, 0).0, [255; 3]);
+    }
+
+    #[test]
+    fn an_svg_is_sized_in_points_and_escapes_its_texts() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("chart.SVG");
+        Chart::new("a < b & c").write(&path).unwrap();
+        let text = std::fs::read_to_string(path).unwrap();
+        assert!(text.starts_with("<svg width=\"640\" height=\"420\""), "{}", &text[..80]);
+        assert!(text.contains("a &lt; b &amp; c") && text.trim_end().ends_with("</svg>"));
+    }
+
+    #[test]
+    fn other_endings_and_sizes_are_refused() {
+        let error = Chart::new("").write(Path::new("chart.pdf")).unwrap_err();
+        assert_eq!(error.to_string(), "no plot format is called `pdf`; choose one of: png, svg");
+        assert!(matches!(Chart::new("").write(Path::new("chart")), Err(IoError::UnknownFormat { .. })));
+        let error = Figure::new().sized(100_000, 100).write(Path::new("chart.png"));
+        assert!(matches!(error, Err(IoError::PictureSize { .. })));
     }
 }

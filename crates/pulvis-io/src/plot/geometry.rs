@@ -1,9 +1,9 @@
 //! Polylines: gaps, clipping, thinning and dashes, all in drawing units.
 
-/// A point of the drawing: right and down from the upper left corner [pt].
+/// A point of the drawing: right and down from the upper left corner \[pt\].
 pub(super) type Point = (f64, f64);
 
-/// A rectangle of the drawing [pt].
+/// A rectangle of the drawing \[pt\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rectangle {
     pub(super) left: f64,

@@ -4,38 +4,71 @@ use super::canvas::{Across, Along, Canvas, Setting, text_width};
 use super::chart::SeriesStyle;
 use super::draw::{CURVE, DASH, Panel, TICK_FONT, draw_symbol};
 use super::geometry::{Point, Rectangle, dashes};
+use super::placing;
 use crate::{Colour, IoError};
 use plotters::prelude::DrawingBackend;
 
-/// Height of a line, length of a sample, and room around the whole [pt].
+/// Height of a line, length of a sample, and room around the whole \[pt\].
 const ROW: f64 = 16.0;
 const SAMPLE: f64 = 26.0;
 const PADDING: f64 = 6.0;
 
-/// Distance from the frame [pt].
+/// Distance from the frame \[pt\].
 const MARGIN: f64 = 9.0;
+
+/// So much of curves [places of `placing`] may lie below a legend before it moves out of the frame.
+const BEARABLE: usize = 4;
+
+/// Series with a label, and the size of the legend that shows them.
+struct Extent {
+    entries: Vec<usize>,
+    width: f64,
+    height: f64,
+}
+
+/// Width that a panel needs at its right for a legend that finds no free place inside, else zero \[pt\].
+pub(super) fn width_outside(panel: &Panel<'_>) -> f64 {
+    let extent = extent(panel);
+    let crowded = extent.entries.len() > 1 && emptiest_place(panel, &extent).1 > BEARABLE;
+    // A legend that takes half the picture is worse than a hidden piece of curve.
+    let bearable = extent.width < 0.45 * panel.frame.width();
+    if crowded && bearable { extent.width } else { 0.0 }
+}
+
+fn extent(panel: &Panel<'_>) -> Extent {
+    let series = panel.chart.series.iter().enumerate();
+    let entries: Vec<usize> =
+        series.filter(|(_, series)| !series.label.is_empty()).map(|(number, _)| number).collect();
+    let label = |&number: &usize| text_width(&panel.chart.series[number].label, TICK_FONT);
+    let widest = entries.iter().map(label).fold(0.0, f64::max);
+    let height = ROW * entries.len() as f64 + PADDING;
+    Extent { entries, width: PADDING + SAMPLE + 6.0 + widest + PADDING, height }
+}
 
 /// Draws the labels of all series that have one.
 pub(super) fn draw<DB: DrawingBackend>(canvas: &Canvas<DB>, panel: &Panel<'_>) -> Result<(), IoError> {
     let colours = panel.chart.colours();
-    let entries: Vec<usize> =
-        (0..colours.len()).filter(|&number| !panel.chart.series[number].label.is_empty()).collect();
-    if entries.is_empty() {
+    let extent = extent(panel);
+    if extent.entries.is_empty() {
         return Ok(());
     }
-    let label = |number: usize| panel.chart.series[number].label.as_str();
-    let widest = entries.iter().map(|&number| text_width(label(number), TICK_FONT)).fold(0.0, f64::max);
-    let width = PADDING + SAMPLE + 6.0 + widest + PADDING;
-    let place = emptiest_corner(panel, width, ROW * entries.len() as f64 + PADDING);
+    let (inside, hidden) = emptiest_place(panel, &extent);
+    let outside = panel.room_right >= extent.width && hidden > BEARABLE;
+    let place = if outside {
+        let (left, top) = (panel.frame.right + 4.0, panel.frame.top);
+        Rectangle { left, top, right: left + extent.width, bottom: top + extent.height }
+    } else {
+        inside
+    };
     let Rectangle { left, top, right, bottom } = place;
     canvas.fill(&[(left, top), (right, top), (right, bottom), (left, bottom)], Colour::WHITE, 0.85)?;
-    for (row, &number) in entries.iter().enumerate() {
+    for (row, &number) in extent.entries.iter().enumerate() {
         let y = top + 0.5 * PADDING + ROW * (row as f64 + 0.5);
         let start = left + PADDING;
         draw_sample(canvas, panel.chart.series[number].style, (start, y), colours[number])?;
         let (along, across) = (Along::Start, Across::Middle);
         let setting = Setting { size: TICK_FONT, colour: Colour::grey(0x22), along, across, upwards: false };
-        canvas.text((start + SAMPLE + 6.0, y), label(number), setting)?;
+        canvas.text((start + SAMPLE + 6.0, y), &panel.chart.series[number].label, setting)?;
     }
     Ok(())
 }
@@ -57,13 +90,14 @@ fn draw_sample<DB: DrawingBackend>(
     }
 }
 
-/// The corner (or middle of a side) whose rectangle covers the shortest piece of curves, the fewest symbols and no
-/// marker label; among equals the first listed.
-fn emptiest_corner(panel: &Panel<'_>, width: f64, height: f64) -> Rectangle {
+/// The corner (or middle of a side) whose rectangle hides least, and how much that is; among equals the first listed.
+fn emptiest_place(panel: &Panel<'_>, extent: &Extent) -> (Rectangle, usize) {
     let frame = panel.frame;
-    let places = occupied(panel);
-    let (near_left, near_right) = (frame.left + MARGIN, frame.right - MARGIN - width);
-    let (near_top, near_bottom) = (frame.top + MARGIN, frame.bottom - MARGIN - height);
+    let mut places = placing::occupied(panel);
+    let labels: Vec<Rectangle> = panel.marker_labels(&places).map(|(_, place, _)| place).collect();
+    places.extend(labels.into_iter().flat_map(placing::spread));
+    let (near_left, near_right) = (frame.left + MARGIN, frame.right - MARGIN - extent.width);
+    let (near_top, near_bottom) = (frame.top + MARGIN, frame.bottom - MARGIN - extent.height);
     let (middle_x, middle_y) = (0.5 * (near_left + near_right), 0.5 * (near_top + near_bottom));
     let corners = [
         (near_right, near_top),
@@ -75,30 +109,9 @@ fn emptiest_corner(panel: &Panel<'_>, width: f64, height: f64) -> Rectangle {
         (middle_x, near_top),
         (middle_x, near_bottom),
     ];
-    let rectangle = |(left, top): Point| Rectangle { left, top, right: left + width, bottom: top + height };
-    let covered = |corner: &Point| {
-        let place = rectangle(*corner);
-        places.iter().filter(|&&point| place.contains(point)).count()
-    };
-    rectangle(corners.iter().min_by_key(|corner| covered(corner)).copied().unwrap_or(corners[0]))
-}
-
-/// Points every few units along all curves, and all symbols and marker labels (which weigh more).
-fn occupied(panel: &Panel<'_>) -> Vec<Point> {
-    const STEP: f64 = 3.0;
-    let mut places = Vec::new();
-    for (number, series) in panel.chart.series.iter().enumerate() {
-        if series.style == SeriesStyle::Points {
-            places.extend(panel.symbols(number).flat_map(|symbol| [symbol; 3]));
-            continue;
-        }
-        for piece in panel.pieces(number) {
-            places.extend(dashes(&piece, STEP, STEP).into_iter().flatten());
-        }
-    }
-    for (x, top, length) in panel.marker_labels() {
-        let steps = (length / STEP).ceil() as usize;
-        places.extend((0..=steps).flat_map(|step| [(x, top + STEP * step as f64); 2]));
-    }
-    places
+    let judged = corners.map(|(left, top)| {
+        let place = Rectangle { left, top, right: left + extent.width, bottom: top + extent.height };
+        (place, placing::covered(&places, place))
+    });
+    judged.into_iter().min_by_key(|(_, hidden)| *hidden).unwrap_or(judged[0])
 }

@@ -35,6 +35,7 @@ mod draw;
 mod figure;
 mod geometry;
 mod legend;
+mod placing;
 pub(crate) mod raster;
 mod vector;
 

@@ -68,7 +68,7 @@ impl<'a> Column<'a> {
 /// The particles of one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct ParticleFrame<'a> {
-    /// Centre of each particle [m].
+    /// Centre of each particle \[m\].
     pub positions: &'a [[f64; 3]],
     /// Named arrays with one value per particle.
     pub columns: &'a [Column<'a>],
@@ -77,7 +77,7 @@ pub struct ParticleFrame<'a> {
 /// The contacts of one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactFrame<'a> {
-    /// The two points that each contact joins, usually the centres of its particles [m].
+    /// The two points that each contact joins, usually the centres of its particles \[m\].
     ///
     /// Across a periodic face give the image next to the first particle, or the line will cross the whole box.
     pub ends: &'a [[[f64; 3]; 2]],

@@ -8,7 +8,7 @@ use std::path::Path;
 /// One instant in the run's index.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Entry {
-    /// Time of the frame [s].
+    /// Time of the frame \[s\].
     pub(crate) time: f64,
     /// File of the frame, relative to the index.
     pub(crate) file: String,

@@ -31,7 +31,7 @@ impl SeriesWriter {
         Ok(Self { folder, prefix, entries: Vec::new() })
     }
 
-    /// Goes on with the series of an interrupted run: frames before `time` [s] stay in the index, later ones are
+    /// Goes on with the series of an interrupted run: frames before `time` \[s\] stay in the index, later ones are
     /// written again. Without an index this is [`SeriesWriter::create`].
     ///
     /// # Errors
@@ -45,7 +45,7 @@ impl SeriesWriter {
         Ok(series)
     }
 
-    /// Writes one frame at `time` [s] and lists it in the index; returns the frame's file.
+    /// Writes one frame at `time` \[s\] and lists it in the index; returns the frame's file.
     ///
     /// # Errors
     /// A time that is not finite or not later than the frame before, a column of the wrong length, or a file that cannot
