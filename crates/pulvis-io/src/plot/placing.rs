@@ -33,7 +33,7 @@ pub(super) fn covered(places: &[Point], label: Rectangle) -> usize {
 pub(super) fn marker_label(frame: Rectangle, x: f64, label: &str, places: &[Point]) -> Rectangle {
     let (width, height) = (TICK_FONT + 2.0, text_width(label, TICK_FONT));
     let (above, below) = (frame.top + 8.0, frame.bottom - 8.0 - height);
-    let (right, left) = (x + 2.0, x - width - 2.0);
+    let (right, left) = (x + 4.0, x - width - 4.0);
     let candidates = [(right, above), (left, above), (right, below), (left, below)];
     let at = |(left, top): Point| Rectangle { left, top, right: left + width, bottom: top + height };
     let outside = |place: &Rectangle| place.right > frame.right || place.left < frame.left;

@@ -18,11 +18,11 @@ use std::path::{Path, PathBuf};
 /// # fn main() -> Result<(), pulvis_io::IoError> {
 /// # let scratch = tempfile::tempdir().expect("a temporary folder");
 /// # let path = scratch.path().join("energy.csv");
-/// let mut series = TimeSeriesWriter::create(&path, ["time \[s\]", "kinetic energy [J]"])?;
+/// let mut series = TimeSeriesWriter::create(&path, ["time [s]", "kinetic energy [J]"])?;
 /// series.row(&[0.0, 0.5])?;
 /// series.row(&[1.0e-6, 0.4375])?;
 /// series.finish()?;
-/// # assert_eq!(std::fs::read_to_string(&path).unwrap(), "time \[s\],kinetic energy [J]\n0,0.5\n1e-6,0.4375\n");
+/// # assert_eq!(std::fs::read_to_string(&path).unwrap(), "time [s],kinetic energy [J]\n0,0.5\n1e-6,0.4375\n");
 /// # Ok(())
 /// # }
 /// ```

@@ -80,6 +80,9 @@ fn topology(out: &mut impl Write, points: usize, size: usize) -> io::Result<()> 
     array(out, "offsets", "Int64", 1, (0..points / size).map(|group| integer((group + 1) * size)))
 }
 
+/// Bytes handed to the encoder at once; a multiple of its groups of three, so that it keeps nothing back.
+const CHUNK: usize = 6144;
+
 /// One array: the payload's length [byte] as a 64-bit integer and the payload, in one base64 stream.
 fn array<I>(out: &mut impl Write, name: &str, kind: &str, components: usize, values: I) -> io::Result<()>
 where
@@ -93,10 +96,10 @@ where
     let mut encoder = EncoderWriter::new(&mut *out, &STANDARD);
     encoder.write_all(&(8 * values.len() as u64).to_le_bytes())?;
     // The encoder works on what one call hands it: single numbers would make it four times slower.
-    let mut chunk = Vec::with_capacity(6144);
+    let mut chunk = Vec::with_capacity(CHUNK);
     for value in values {
         chunk.extend_from_slice(&value);
-        if chunk.len() == chunk.capacity() {
+        if chunk.len() >= CHUNK {
             encoder.write_all(&chunk)?;
             chunk.clear();
         }
