@@ -23,6 +23,7 @@
 //! # Ok::<(), pulvis_input::InputErrors>(())
 //! ```
 
+pub mod collision;
 pub mod context;
 mod decimal;
 pub mod document;

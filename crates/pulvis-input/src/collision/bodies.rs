@@ -1,0 +1,84 @@
+//! The two bodies of a collision.
+
+use crate::context::Reported;
+use crate::list::List;
+use crate::problem::Problem;
+use crate::quantity::QuantityRule;
+use crate::reader::TableReader;
+use crate::shape::Name;
+use pulvis_contact::Pair;
+use pulvis_math::Dimension;
+use std::f64::consts::PI;
+
+/// A sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// Radius a [m].
+    pub radius: f64,
+    /// Mass [kg].
+    pub mass: f64,
+}
+
+/// The two bodies of a collision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bodies {
+    /// Two spheres.
+    Pair([Sphere; 2]),
+    /// A sphere and a plane that does not give way.
+    Wall(Sphere),
+}
+
+impl Bodies {
+    /// The constants that contact laws see.
+    pub fn pair(&self) -> Pair {
+        match self {
+            Self::Pair([i, j]) => Pair::spheres(i.mass, j.mass, i.radius, j.radius),
+            Self::Wall(sphere) => Pair::wall(sphere.mass, sphere.radius),
+        }
+    }
+
+    /// Mass [kg] and radius [m] of both bodies; `None` is the wall.
+    pub fn masses_and_radii(&self) -> ((f64, f64), Option<(f64, f64)>) {
+        let of = |sphere: &Sphere| (sphere.mass, sphere.radius);
+        match self {
+            Self::Pair([i, j]) => (of(i), Some(of(j))),
+            Self::Wall(sphere) => (of(sphere), None),
+        }
+    }
+}
+
+/// Reads `bodies`, `radius` and one of `density` and `mass`. A pair whose spheres are equal may give
+/// one value for both.
+pub(super) fn read_bodies(table: &mut TableReader<'_>) -> Result<Bodies, Reported> {
+    let kind = table.required("bodies", Name(&["pair", "wall"]));
+    let most = if matches!(kind, Ok("wall")) { 1 } else { 2 };
+    let list =
+        |dimension| List::of(QuantityRule::of(dimension).above(0.0)).at_least(1).at_most(most).or_single();
+    let radii = table.required("radius", list(Dimension::LENGTH));
+    let density = table.optional("density", list(Dimension::DENSITY));
+    let mass = table.optional("mass", list(Dimension::MASS));
+    let (kind, radii, density, mass) = (kind?, radii?, density?, mass?);
+    let at = |values: &[f64], index: usize| values.get(index).or(values.first()).copied().unwrap_or(f64::NAN);
+    let sphere = |index: usize| -> Result<Sphere, Reported> {
+        let radius = at(&radii, index);
+        let mass = match (&density, &mass) {
+            (Some(density), None) => at(density, index) * 4.0 / 3.0 * PI * radius.powi(3),
+            (None, Some(mass)) => at(mass, index),
+            (Some(_), Some(_)) => {
+                let problem = Problem::rule("given beside `density`", "either `density` or `mass`");
+                return Err(table.refuse("mass", problem));
+            }
+            (None, None) => {
+                let expected = "densities [kg/m^3], or `mass` in its place".to_owned();
+                return Err(table.refuse_with_help(
+                    "density",
+                    Problem::MissingKey { key: "density".to_owned(), expected },
+                    "add for example `density = \"2000 kg/m^3\"`",
+                ));
+            }
+        };
+        Ok(Sphere { radius, mass })
+    };
+    let first = sphere(0)?;
+    if kind == "wall" { Ok(Bodies::Wall(first)) } else { Ok(Bodies::Pair([first, sphere(1)?])) }
+}

@@ -1,0 +1,226 @@
+//! What differs from collision to collision.
+
+use super::contact::ContactLaws;
+use super::speed::{Measure, Speed};
+use crate::context::Reported;
+use crate::list::List;
+use crate::problem::Problem;
+use crate::quantity::QuantityRule;
+use crate::reader::TableReader;
+use crate::shape::{Integer, Name, Text};
+use crate::similar::similar;
+use pulvis_contact::catalogue::{Kind, Parameter, Value};
+use pulvis_math::Dimension;
+
+/// More points than any curve needs; a slip of the pen should not fill the memory.
+const MOST_POINTS: i64 = 1_000_000;
+
+/// The key of the engine's resolution, which can be swept beside law parameters.
+const STEPS: &str = "collision.steps_per_contact";
+
+/// The variable of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SweptVariable {
+    /// Nothing is swept: one collision.
+    Single,
+    /// Relative speed outside the range of all forces [m/s].
+    Velocity,
+    /// χ = v_i/v_p0 with the touch velocity v_i, S1 (28a).
+    Chi,
+    /// ζ = v_i/v_p with the touch velocity v_i and f_a in v_p, S1 (28b).
+    Zeta,
+    /// A number in the scenario.
+    Key {
+        /// Its dotted path.
+        path: String,
+        /// Its unit.
+        unit: String,
+    },
+}
+
+impl SweptVariable {
+    /// How a column or an axis is called.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Single | Self::Velocity => "velocity",
+            Self::Chi => "chi",
+            Self::Zeta => "zeta",
+            Self::Key { path, .. } => path,
+        }
+    }
+
+    /// The unit of the values.
+    pub fn unit(&self) -> &str {
+        match self {
+            Self::Single | Self::Velocity => "m/s",
+            Self::Chi | Self::Zeta => "1",
+            Self::Key { unit, .. } => unit,
+        }
+    }
+}
+
+/// One value of the sweep.
+pub(super) struct Point {
+    pub(super) value: f64,
+    /// Set where the speed itself is swept.
+    pub(super) speed: Option<Speed>,
+}
+
+/// A sweep as read.
+pub(super) struct Sweep {
+    pub(super) variable: SweptVariable,
+    pub(super) logarithmic: bool,
+    pub(super) points: Vec<Point>,
+}
+
+impl Sweep {
+    /// No sweep: one collision.
+    pub(super) fn single() -> Self {
+        Self { variable: SweptVariable::Single, logarithmic: false, points: Vec::new() }
+    }
+}
+
+/// What can be swept: how its values are written, and how the law judges them.
+struct Sweepable {
+    variable: SweptVariable,
+    measure: Option<Measure>,
+    rule: QuantityRule,
+    parameter: Option<&'static Parameter>,
+}
+
+/// Reads `[collision.sweep]`.
+pub(super) fn read_sweep(mut table: TableReader<'_>, contact: &ContactLaws) -> Result<Sweep, Reported> {
+    let name = table.required("variable", Text)?;
+    let sweepable = find(&table, &name, contact)?;
+    let listed = table.optional("values", List::of(sweepable.rule).at_least(1))?;
+    let mut logarithmic = false;
+    let values = match listed {
+        Some(values) => {
+            if let Some(key) =
+                ["from", "to", "points", "spacing"].into_iter().find(|key| table.value(key).is_some())
+            {
+                return Err(table.refuse(
+                    key,
+                    Problem::rule("given beside `values`", "either `values` or `from`, `to`, `points`"),
+                ));
+            }
+            values
+        }
+        None if !["from", "to", "points", "spacing"].into_iter().any(|key| table.keys().contains(&key)) => {
+            let expected = "a list of values, or `from`, `to` and `points`".to_owned();
+            return Err(table.refuse("values", Problem::MissingKey { key: "values".to_owned(), expected }));
+        }
+        None => read_range(&mut table, sweepable.rule, &mut logarithmic)?,
+    };
+    let mut points = Vec::new();
+    for (index, value) in values.into_iter().enumerate() {
+        let location =
+            table.value("values").and_then(|list| Some(list.items("").ok()?.get(index)?.location()));
+        let location = location.unwrap_or_else(|| table.location("from"));
+        if let Some(parameter) = sweepable.parameter
+            && let Err(error) = parameter.check(&Value::Number(value))
+        {
+            return Err(table.refuse_at(&location, Problem::Refused(Box::new(error))));
+        }
+        points.push(Point {
+            value,
+            speed: sweepable.measure.map(|measure| Speed { measure, value, location }),
+        });
+    }
+    table.finish();
+    Ok(Sweep { variable: sweepable.variable, logarithmic, points })
+}
+
+/// Reads `from`, `to`, `points` and `spacing`.
+fn read_range(
+    table: &mut TableReader<'_>,
+    rule: QuantityRule,
+    logarithmic: &mut bool,
+) -> Result<Vec<f64>, Reported> {
+    let from = table.required("from", rule);
+    let to = table.required("to", rule);
+    let points = table.required("points", Integer::between(2, MOST_POINTS));
+    let spacing = table.or("spacing", Name(&["linear", "log"]), "linear");
+    let (from, to, points) = (from?, to?, points?);
+    *logarithmic = spacing? == "log";
+    for (key, end) in [("from", from), ("to", to)] {
+        if *logarithmic && end <= 0.0 {
+            let found = format!("{end} has no logarithm");
+            return Err(
+                table.refuse(key, Problem::rule(found, "a value greater than 0, or spacing = \"linear\""))
+            );
+        }
+    }
+    let between = |share: f64| {
+        if *logarithmic { from * (to / from).powf(share) } else { from + (to - from) * share }
+    };
+    #[allow(clippy::cast_precision_loss)] // at most a million
+    let inner = (1..points - 1).map(|number| between(number as f64 / (points - 1) as f64));
+    // The ends exactly as written.
+    Ok(std::iter::once(from).chain(inner).chain(std::iter::once(to)).collect())
+}
+
+/// The variable called `name`.
+fn find(table: &TableReader<'_>, name: &str, contact: &ContactLaws) -> Result<Sweepable, Reported> {
+    if let Some((_, measure)) = Measure::ALL.into_iter().find(|(known, _)| *known == name) {
+        let variable = match measure {
+            Measure::Velocity => SweptVariable::Velocity,
+            Measure::Chi => SweptVariable::Chi,
+            Measure::Zeta => SweptVariable::Zeta,
+        };
+        return Ok(Sweepable { variable, measure: Some(measure), rule: measure.rule(), parameter: None });
+    }
+    let key = |unit: String| SweptVariable::Key { path: name.to_owned(), unit };
+    if name == STEPS {
+        let rule = QuantityRule::of(Dimension::NONE).at_least(1.0);
+        return Ok(Sweepable { variable: key("1".to_owned()), measure: None, rule, parameter: None });
+    }
+    let parameter = name.strip_prefix("contact.").and_then(|rest| {
+        let (role, parameter) = rest.split_once('.')?;
+        contact.entry(role)?.parameter(parameter)
+    });
+    match parameter {
+        Some(parameter) => match parameter.kind {
+            Kind::Number { dimension, may_be_infinite, .. } => {
+                let rule = QuantityRule::of(dimension).or_bare();
+                let rule = if may_be_infinite { rule.or_infinite() } else { rule };
+                Ok(Sweepable {
+                    variable: key(dimension.unit()),
+                    measure: None,
+                    rule,
+                    parameter: Some(parameter),
+                })
+            }
+            Kind::Choice(_) => {
+                Err(table.refuse("variable", Problem::rule(format!("`{name}` is a choice"), "a number")))
+            }
+        },
+        None => Err(unknown(table, name, contact)),
+    }
+}
+
+/// Reports a variable that does not exist.
+fn unknown(table: &TableReader<'_>, name: &str, contact: &ContactLaws) -> Reported {
+    let mut known: Vec<String> = Measure::ALL.iter().map(|(name, _)| (*name).to_owned()).collect();
+    for entry in &contact.entries {
+        let numbers =
+            entry.parameters.iter().filter(|parameter| matches!(parameter.kind, Kind::Number { .. }));
+        known.extend(numbers.map(|parameter| format!("contact.{}.{}", entry.role.key(), parameter.name)));
+    }
+    known.push(STEPS.to_owned());
+    let suggestion = similar(name, known.iter().map(String::as_str)).map(str::to_owned);
+    table.refuse_with_help(
+        "variable",
+        Problem::UnknownChoice {
+            found: name.to_owned(),
+            choices: vec![
+                "velocity".to_owned(),
+                "chi".to_owned(),
+                "zeta".to_owned(),
+                "contact.<role>.<parameter>".to_owned(),
+            ],
+            similar: suggestion,
+        },
+        format!("known variables here: {}", known.join(", ")),
+    )
+}
