@@ -1,1 +1,24 @@
-//! See the crate description.
+//! Level 2 of the house: many bodies.
+//!
+//! Particles are columns in cell order, contacts are blocks of eight with memory that survives every
+//! new list of candidates, time moves by synchronised velocity-Verlet, and an energy ledger closes
+//! over it all. Nothing here knows files.
+
+pub mod arrangement;
+mod background;
+mod contacts;
+mod domain;
+mod ledger;
+mod neighbours;
+mod particles;
+mod simulation;
+mod time_step;
+pub mod walls;
+
+pub use background::Background;
+pub use contacts::{ContactPartner, ContactView, Interactions};
+pub use domain::Domain;
+pub use ledger::Ledger;
+pub use particles::{MaterialIndex, Particle, ParticleId, Particles};
+pub use simulation::{Setup, SetupError, Simulation, StepError};
+pub use time_step::{ShortestContact, shortest_contact};

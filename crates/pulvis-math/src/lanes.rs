@@ -25,6 +25,13 @@ impl<const N: usize> Default for Lanes<N> {
     }
 }
 
+impl<const N: usize> From<[f64; N]> for Lanes<N> {
+    #[inline(always)]
+    fn from(numbers: [f64; N]) -> Self {
+        Self(numbers)
+    }
+}
+
 macro_rules! lane_operator {
     ($operator:ident, $method:ident, $assign:tt) => {
         impl<const N: usize> $operator for Lanes<N> {

@@ -1,0 +1,175 @@
+//! Random places without overlap.
+
+use std::collections::HashMap;
+
+use pulvis_math::Vector3;
+use rand::RngExt;
+use thiserror::Error;
+
+use super::Random;
+use crate::domain::Domain;
+
+/// A box that spheres are put into; they lie in it whole, except along periodic directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    /// Lower corner [m].
+    pub lower: Vector3,
+    /// Upper corner [m].
+    pub upper: Vector3,
+}
+
+/// There is no room for a sphere.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("no room for sphere {placed} of {wanted} (radius {radius} m) after {attempts} random trials; the solid fraction would be {solid_fraction:.3}")]
+pub struct NoRoom {
+    /// Spheres placed before.
+    pub placed: usize,
+    /// Spheres wanted.
+    pub wanted: usize,
+    /// Radius of the sphere that found no room [m].
+    pub radius: f64,
+    /// Trials made for it.
+    pub attempts: usize,
+    /// Volume of all spheres over that of the region [1].
+    pub solid_fraction: f64,
+}
+
+const ATTEMPTS: usize = 20_000;
+
+/// Random places for spheres of the given radii [m], none of which overlap each other or the
+/// `present` ones (centre [m], radius [m]): random sequential addition, the largest first.
+pub fn random_places(
+    radii: &[f64],
+    region: &Region,
+    domain: &Domain,
+    present: &[(Vector3, f64)],
+    random: &mut Random,
+) -> Result<Vec<Vector3>, NoRoom> {
+    let largest = radii.iter().chain(present.iter().map(|(_, radius)| radius)).copied().fold(0.0, f64::max);
+    let mut occupied = Occupied::new(2.0 * largest.max(f64::MIN_POSITIVE), *domain);
+    for &(centre, radius) in present {
+        occupied.add(centre, radius);
+    }
+    let mut order: Vec<usize> = (0..radii.len()).collect();
+    order.sort_by(|&a, &b| radii[b].total_cmp(&radii[a]).then(a.cmp(&b)));
+    let mut places = vec![Vector3::zero(); radii.len()];
+    for (placed, &sphere) in order.iter().enumerate() {
+        let radius = radii[sphere];
+        let free = (0..ATTEMPTS).find_map(|_| {
+            let centre = draw(region, domain, radius, random)?;
+            occupied.is_free(centre, radius).then_some(centre)
+        });
+        let Some(centre) = free else {
+            let span = region.upper - region.lower;
+            let solid: f64 = radii.iter().map(|radius| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)).sum();
+            let solid_fraction = solid / (span.x * span.y * span.z);
+            let wanted = radii.len();
+            return Err(NoRoom { placed, wanted, radius, attempts: ATTEMPTS, solid_fraction });
+        };
+        occupied.add(centre, radius);
+        places[sphere] = centre;
+    }
+    Ok(places)
+}
+
+fn draw(region: &Region, domain: &Domain, radius: f64, random: &mut Random) -> Option<Vector3> {
+    let mut centre = Vector3::zero();
+    for axis in 0..3 {
+        let margin = if domain.period(axis).is_some() { 0.0 } else { radius };
+        let (low, high) = (region.lower[axis] + margin, region.upper[axis] - margin);
+        let drawn = random.random::<f64>();
+        if low > high {
+            return None;
+        }
+        *centre.component_mut(axis) = low + (high - low) * drawn;
+    }
+    Some(centre)
+}
+
+/// Spheres found by the cell that their centre lies in.
+struct Occupied {
+    width: f64,
+    domain: Domain,
+    cells: HashMap<[i64; 3], Vec<(Vector3, f64)>>,
+}
+
+impl Occupied {
+    fn new(width: f64, domain: Domain) -> Self {
+        Self { width, domain, cells: HashMap::new() }
+    }
+
+    fn cell(&self, place: Vector3) -> [i64; 3] {
+        [0, 1, 2].map(|axis| (place[axis] / self.width).floor() as i64)
+    }
+
+    fn add(&mut self, centre: Vector3, radius: f64) {
+        let centre = self.domain.wrapped(centre);
+        let cell = self.cell(centre);
+        self.cells.entry(cell).or_default().push((centre, radius));
+    }
+
+    fn is_free(&self, centre: Vector3, radius: f64) -> bool {
+        // The images of the centre that can see spheres across a periodic boundary.
+        let shifts = |axis: usize| match self.domain.period(axis) {
+            Some(period) => vec![-period, 0.0, period],
+            None => vec![0.0],
+        };
+        let centre = self.domain.wrapped(centre);
+        let (xs, ys, zs) = (shifts(0), shifts(1), shifts(2));
+        xs.iter().all(|&x| {
+            ys.iter().all(|&y| {
+                zs.iter().all(|&z| self.is_free_image(centre + Vector3::new(x, y, z), radius))
+            })
+        })
+    }
+
+    fn is_free_image(&self, centre: Vector3, radius: f64) -> bool {
+        let [x, y, z] = self.cell(centre);
+        let overlaps = |(other, size): &(Vector3, f64)| {
+            let apart = radius + size;
+            (*other - centre).norm_squared() < apart * apart
+        };
+        (x - 1..=x + 1).all(|x| {
+            (y - 1..=y + 1).all(|y| {
+                (z - 1..=z + 1).all(|z| self.cells.get(&[x, y, z]).is_none_or(|cell| !cell.iter().any(overlaps)))
+            })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+    use super::super::random_stream;
+    use super::*;
+
+    fn unit_cube() -> Region {
+        Region { lower: Vector3::zero(), upper: Vector3::new(1.0, 1.0, 1.0) }
+    }
+
+    #[test]
+    fn spheres_lie_in_the_region_and_do_not_overlap_not_even_across_a_periodic_boundary() {
+        let domain = Domain::periodic(Vector3::zero(), Vector3::new(1.0, 1.0, 1.0), [true, false, true]);
+        let radii: Vec<f64> = (0..200).map(|i| 0.03 + 0.0001 * f64::from(i)).collect();
+        let places =
+            random_places(&radii, &unit_cube(), &domain, &[], &mut random_stream(3)).unwrap();
+        let images = domain.images();
+        for i in 0..radii.len() {
+            assert!(places[i].y >= radii[i] && places[i].y <= 1.0 - radii[i]);
+            for j in 0..i {
+                let distance = images.nearest(places[i] - places[j]).norm();
+                assert!(distance >= radii[i] + radii[j], "{i} {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn too_many_spheres_are_refused_with_the_solid_fraction() {
+        let radii = vec![0.1; 200];
+        let error =
+            random_places(&radii, &unit_cube(), &Domain::unbounded(), &[], &mut random_stream(3));
+        let error = error.unwrap_err();
+        assert!(error.placed < 200 && error.solid_fraction > 0.8);
+    }
+}

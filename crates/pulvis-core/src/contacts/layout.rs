@@ -1,0 +1,165 @@
+//! Where the parts of a contact's memory stand among its columns.
+
+use pulvis_contact::{ContactMemory, ContactModel, Memory, NormalLaw, NormalLawVisitor};
+use pulvis_math::{Lanes, Vector3};
+
+/// Eight contacts at a time.
+pub(crate) type Lane = Lanes<8>;
+
+/// The columns of a group's contact memory: the normal law's, then those that the composition needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Layout {
+    touched: Option<usize>,
+    sliding: Option<usize>,
+    rolling: Option<usize>,
+    torsion: Option<usize>,
+    normal_columns: usize,
+    columns: usize,
+}
+
+struct NormalColumns;
+
+impl NormalLawVisitor for NormalColumns {
+    type Output = usize;
+    fn visit<N: NormalLaw>(self, _law: N) -> usize {
+        <N::Memory<f64> as Memory<f64>>::COLUMNS
+    }
+}
+
+impl Layout {
+    /// The columns that contacts of `model` need.
+    pub(crate) fn of(model: &ContactModel) -> Self {
+        let normal_columns = model.normal.accept(NormalColumns);
+        let mut columns = normal_columns;
+        let mut place = |needed: bool, width: usize| {
+            needed.then(|| {
+                columns += width;
+                columns - width
+            })
+        };
+        let laws = &model.composition;
+        let touched = place(laws.noncontact.remembers_touch(), 1);
+        let sliding = place(laws.sliding.is_some(), 3);
+        let rolling = place(laws.rolling.is_some(), 3);
+        let torsion = place(laws.torsion.is_some(), 1);
+        Self { touched, sliding, rolling, torsion, normal_columns, columns }
+    }
+
+    /// Number of columns.
+    #[inline(always)]
+    pub(crate) fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// The memory of a block, read from its columns.
+    #[inline(always)]
+    pub(crate) fn load<M: Memory<Lane>>(&self, columns: &[Lane]) -> ContactMemory<Lane, M> {
+        let vector = |place: Option<usize>| match place {
+            Some(first) => Vector3::new(columns[first], columns[first + 1], columns[first + 2]),
+            None => Vector3::default(),
+        };
+        let scalar = |place: Option<usize>| place.map_or(Lane::default(), |first| columns[first]);
+        ContactMemory {
+            normal: M::load(|column| columns[column]),
+            touched: scalar(self.touched),
+            sliding: vector(self.sliding),
+            rolling: vector(self.rolling),
+            torsion: scalar(self.torsion),
+        }
+    }
+
+    /// The memory of a block, written into its columns.
+    #[inline(always)]
+    pub(crate) fn store<M: Memory<Lane>>(&self, memory: &ContactMemory<Lane, M>, columns: &mut [Lane]) {
+        memory.normal.store(|column, value| columns[column] = value);
+        let mut scalar = |place: Option<usize>, value: Lane| {
+            if let Some(first) = place {
+                columns[first] = value;
+            }
+        };
+        scalar(self.touched, memory.touched);
+        scalar(self.torsion, memory.torsion);
+        for (place, vector) in [(self.sliding, memory.sliding), (self.rolling, memory.rolling)] {
+            scalar(place, vector.x);
+            scalar(place.map(|first| first + 1), vector.y);
+            scalar(place.map(|first| first + 2), vector.z);
+        }
+    }
+
+    /// The columns of this layout filled from a contact remembered in another one: what both laws
+    /// keep survives a switch of laws, what only the old one kept is forgotten.
+    pub(crate) fn translate(&self, from: &Layout, record: &[f64], same_normal_law: bool) -> Vec<f64> {
+        let mut translated = vec![0.0; self.columns];
+        let mut copy = |to: Option<usize>, from: Option<usize>, width: usize| {
+            if let (Some(to), Some(from)) = (to, from) {
+                translated[to..to + width].copy_from_slice(&record[from..from + width]);
+            }
+        };
+        if same_normal_law {
+            copy(Some(0), Some(0), self.normal_columns);
+        }
+        copy(self.touched, from.touched, 1);
+        copy(self.sliding, from.sliding, 3);
+        copy(self.rolling, from.rolling, 3);
+        copy(self.torsion, from.torsion, 1);
+        translated
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+    use pulvis_contact::{ContactModel, Linear, Luding, SpringSlider};
+
+    use super::*;
+
+    fn luding() -> Luding {
+        Luding {
+            k1: 1.0,
+            kp: 2.0,
+            kc: 1.0,
+            phi_f: 0.1,
+            interpolation: pulvis_contact::normal::Interpolation::Linear,
+        }
+    }
+
+    #[test]
+    fn a_switch_of_laws_keeps_what_both_remember() {
+        let slider = SpringSlider {
+            stiffness: 1.0,
+            dashpot: 0.0,
+            dynamic_coefficient: 1.0,
+            static_coefficient: 1.0,
+        };
+        let mut full = ContactModel::frictionless(luding());
+        full.composition.sliding = Some(slider);
+        full.composition.torsion = Some(slider);
+        let mut sliding_only = ContactModel::frictionless(luding());
+        sliding_only.composition.sliding = Some(slider);
+        let (full, sliding_only) = (Layout::of(&full), Layout::of(&sliding_only));
+        assert_eq!(full.columns(), 5);
+        let record = [9.0, 1.0, 2.0, 3.0, 7.0];
+        assert_eq!(sliding_only.translate(&full, &record, true), [9.0, 1.0, 2.0, 3.0]);
+        assert_eq!(full.translate(&sliding_only, &record[..4], true), [9.0, 1.0, 2.0, 3.0, 0.0]);
+        let elastic = Layout::of(&ContactModel::frictionless(Linear::new(1.0, 0.0)));
+        assert_eq!(elastic.translate(&full, &record, false), [0.0; 0]);
+    }
+
+    #[test]
+    fn what_is_stored_is_what_is_loaded() {
+        let mut model = ContactModel::frictionless(luding());
+        model.composition.sliding = Some(SpringSlider {
+            stiffness: 1.0,
+            dashpot: 0.0,
+            dynamic_coefficient: 1.0,
+            static_coefficient: 1.0,
+        });
+        let layout = Layout::of(&model);
+        let columns: Vec<Lane> = (0..4).map(|column| Lane::from([f64::from(column); 8])).collect();
+        let memory = layout.load::<pulvis_contact::normal::LudingMemory<Lane>>(&columns);
+        let mut copy = vec![Lane::default(); 4];
+        layout.store(&memory, &mut copy);
+        assert_eq!(copy, columns);
+    }
+}

@@ -1,0 +1,106 @@
+//! The directions in which space repeats itself.
+
+use pulvis_math::{Real, Vector3};
+
+/// Space, periodic in some directions. Directions that are not periodic are unbounded; what keeps
+/// particles together there is walls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Domain {
+    lower: Vector3,
+    upper: Vector3,
+    periodic: [bool; 3],
+}
+
+impl Domain {
+    /// Space without any periodic direction.
+    pub fn unbounded() -> Self {
+        Self { lower: Vector3::zero(), upper: Vector3::zero(), periodic: [false; 3] }
+    }
+
+    /// A box from `lower` to `upper` [m], which repeats itself in the marked directions.
+    pub fn periodic(lower: Vector3, upper: Vector3, periodic: [bool; 3]) -> Self {
+        Self { lower, upper, periodic }
+    }
+
+    /// The period along an axis [m], `None` where it is not periodic.
+    pub fn period(&self, axis: usize) -> Option<f64> {
+        self.periodic[axis].then(|| self.upper[axis] - self.lower[axis])
+    }
+
+    /// The lower corner of the periodic box [m].
+    pub fn lower(&self) -> Vector3 {
+        self.lower
+    }
+
+    /// The upper corner of the periodic box [m].
+    pub fn upper(&self) -> Vector3 {
+        self.upper
+    }
+
+    /// The position brought back into the box along the periodic directions.
+    pub(crate) fn wrapped(&self, mut position: Vector3) -> Vector3 {
+        for axis in 0..3 {
+            if let Some(period) = self.period(axis) {
+                let turns = ((position[axis] - self.lower[axis]) / period).floor();
+                *position.component_mut(axis) -= turns * period;
+            }
+        }
+        position
+    }
+
+    /// Periods for the contact loop, infinite where there is none.
+    pub(crate) fn images(&self) -> Images {
+        let periods = [0, 1, 2].map(|axis| self.period(axis).unwrap_or(f64::INFINITY));
+        Images { periods, any: self.periodic.contains(&true) }
+    }
+}
+
+/// The nearest-image rule.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Images {
+    periods: [f64; 3],
+    any: bool,
+}
+
+impl Images {
+    /// The shortest of the vectors that differ from `separation` by whole periods, for separations
+    /// below one and a half periods.
+    #[inline(always)]
+    pub(crate) fn nearest<R: Real>(&self, separation: Vector3<R>) -> Vector3<R> {
+        if !self.any {
+            return separation;
+        }
+        let along = |component: R, period: f64| {
+            let (whole, half) = (R::splat(period), R::splat(0.5 * period));
+            let lowered = R::select(component.gt(half), component - whole, component);
+            R::select(component.lt(-half), component + whole, lowered)
+        };
+        Vector3::new(
+            along(separation.x, self.periods[0]),
+            along(separation.y, self.periods[1]),
+            along(separation.z, self.periods[2]),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_image_is_never_farther_than_half_a_period() {
+        let domain =
+            Domain::periodic(Vector3::zero(), Vector3::new(1.0, 2.0, 3.0), [true, false, true]);
+        let images = domain.images();
+        let nearest = images.nearest(Vector3::new(0.9, 1.9, -2.0));
+        assert!((nearest.x + 0.1).abs() < 1e-15);
+        assert_eq!(nearest.y, 1.9);
+        assert_eq!(nearest.z, 1.0);
+    }
+
+    #[test]
+    fn wrapping_leaves_open_directions_alone() {
+        let domain = Domain::periodic(Vector3::zero(), Vector3::new(1.0, 1.0, 1.0), [true, false, false]);
+        assert_eq!(domain.wrapped(Vector3::new(-0.25, 7.0, -3.0)), Vector3::new(0.75, 7.0, -3.0));
+    }
+}

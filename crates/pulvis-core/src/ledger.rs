@@ -1,0 +1,194 @@
+//! The energy ledger: every joule has an account.
+
+use pulvis_contact::ContactEnergies;
+
+/// All accounts at one time. What the system holds, what it has lost and what was done on it; the
+/// difference is the [closing error](Ledger::closing_error).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Kinetic energy of translation [J].
+    pub kinetic_translation: f64,
+    /// Kinetic energy of rotation [J].
+    pub kinetic_rotation: f64,
+    /// −dt²/8 Σ (f²/m + τ²/I): the part of the discrete energy that velocity-Verlet keeps beside the
+    /// kinetic energy. With the forces' work by the trapezoidal rule, K − dt²/8 Σ f²/m changes by
+    /// exactly that work in every step; without this term the ledger would show an error that is
+    /// none [J].
+    pub kinetic_discretisation: f64,
+    /// Held by normal laws on their elastic branches [J].
+    pub elastic_normal: f64,
+    /// Held by sliding springs [J].
+    pub elastic_sliding: f64,
+    /// Held by rolling springs [J].
+    pub elastic_rolling: f64,
+    /// Held by torsion springs [J].
+    pub elastic_torsion: f64,
+    /// Potential of attraction at a distance [J].
+    pub adhesive: f64,
+    /// Potential in the gravity field [J].
+    pub gravity: f64,
+    /// Lost by plastic deformation of contacts [J].
+    pub dissipated_plastic: f64,
+    /// Lost on adhesive limit branches and by attraction that sets in suddenly [J].
+    pub dissipated_adhesive: f64,
+    /// Lost by dashpots of contacts [J].
+    pub dissipated_viscous: f64,
+    /// Lost by sliding [J].
+    pub dissipated_sliding: f64,
+    /// Lost by rolling slip [J].
+    pub dissipated_rolling: f64,
+    /// Lost by torsion slip [J].
+    pub dissipated_torsion: f64,
+    /// Lost by background drag [J].
+    pub dissipated_background: f64,
+    /// Work done on the particles by walls with a prescribed motion [J].
+    pub work_walls: f64,
+    /// Work done on the particles by servo-controlled walls [J].
+    pub work_servo: f64,
+    /// Energy that came in when laws, walls or the time step were switched [J].
+    pub switched: f64,
+    /// What the system held at the start [J].
+    pub initial: f64,
+    /// The largest energy that was in motion so far: the scale of relative errors [J].
+    pub scale: f64,
+}
+
+impl Ledger {
+    /// Kinetic energy [J].
+    pub fn kinetic(&self) -> f64 {
+        self.kinetic_translation + self.kinetic_rotation
+    }
+
+    /// Elastic energy of all springs [J].
+    pub fn elastic(&self) -> f64 {
+        self.elastic_normal + self.elastic_sliding + self.elastic_rolling + self.elastic_torsion
+    }
+
+    /// Everything that the system holds [J].
+    pub fn held(&self) -> f64 {
+        self.kinetic() + self.kinetic_discretisation + self.elastic() + self.adhesive + self.gravity
+    }
+
+    /// Everything that it has lost [J].
+    pub fn dissipated(&self) -> f64 {
+        self.dissipated_plastic
+            + self.dissipated_adhesive
+            + self.dissipated_viscous
+            + self.dissipated_sliding
+            + self.dissipated_rolling
+            + self.dissipated_torsion
+            + self.dissipated_background
+    }
+
+    /// Everything that was done on it [J].
+    pub fn work(&self) -> f64 {
+        self.work_walls + self.work_servo + self.switched
+    }
+
+    /// Held + lost − done − held at the start: zero for exact integration [J].
+    pub fn closing_error(&self) -> f64 {
+        self.held() + self.dissipated() - self.work() - self.initial
+    }
+
+    /// The closing error over the scale [1]; zero where nothing has moved yet.
+    pub fn relative_error(&self) -> f64 {
+        if self.scale > 0.0 { self.closing_error() / self.scale } else { 0.0 }
+    }
+
+    /// The names of all accounts with their values [J], in the order of output tables.
+    pub fn accounts(&self) -> [(&'static str, f64); 19] {
+        [
+            ("kinetic_translation", self.kinetic_translation),
+            ("kinetic_rotation", self.kinetic_rotation),
+            ("kinetic_discretisation", self.kinetic_discretisation),
+            ("elastic_normal", self.elastic_normal),
+            ("elastic_sliding", self.elastic_sliding),
+            ("elastic_rolling", self.elastic_rolling),
+            ("elastic_torsion", self.elastic_torsion),
+            ("adhesive", self.adhesive),
+            ("gravity", self.gravity),
+            ("dissipated_plastic", self.dissipated_plastic),
+            ("dissipated_adhesive", self.dissipated_adhesive),
+            ("dissipated_viscous", self.dissipated_viscous),
+            ("dissipated_sliding", self.dissipated_sliding),
+            ("dissipated_rolling", self.dissipated_rolling),
+            ("dissipated_torsion", self.dissipated_torsion),
+            ("dissipated_background", self.dissipated_background),
+            ("work_walls", self.work_walls),
+            ("work_servo", self.work_servo),
+            ("switched", self.switched),
+        ]
+    }
+}
+
+/// What is added up step by step, between the times at which a [`Ledger`] is drawn up.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Running {
+    /// Held and power now, lost so far.
+    pub(crate) contacts: ContactEnergies,
+    pub(crate) viscous: f64,
+    pub(crate) background: f64,
+    background_power: f64,
+    pub(crate) switched: f64,
+    pub(crate) initial: f64,
+    pub(crate) scale: f64,
+}
+
+impl Running {
+    /// Takes in the contacts' energies and the background's power at the end of a step. Powers are
+    /// integrated by the trapezoidal rule: the work of a force over its two half kicks is the force
+    /// times the velocity of its time, exactly.
+    pub(crate) fn take_in(&mut self, now: ContactEnergies, background_power: f64, time_step: f64) {
+        self.viscous += 0.5 * time_step * (self.contacts.viscous_power + now.viscous_power);
+        self.background += 0.5 * time_step * (self.background_power + background_power);
+        self.background_power = background_power;
+        let lost = self.contacts;
+        self.contacts = ContactEnergies {
+            dissipated_plastic: lost.dissipated_plastic + now.dissipated_plastic,
+            dissipated_adhesive: lost.dissipated_adhesive + now.dissipated_adhesive,
+            dissipated_sliding: lost.dissipated_sliding + now.dissipated_sliding,
+            dissipated_rolling: lost.dissipated_rolling + now.dissipated_rolling,
+            dissipated_torsion: lost.dissipated_torsion + now.dissipated_torsion,
+            ..now
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_held_lost_and_done_must_balance() {
+        let ledger = Ledger {
+            kinetic_translation: 3.0,
+            elastic_normal: 1.0,
+            dissipated_plastic: 2.0,
+            work_walls: 1.0,
+            initial: 5.0,
+            scale: 6.0,
+            ..Ledger::default()
+        };
+        assert_eq!(ledger.closing_error(), 0.0);
+        assert_eq!(Ledger { work_servo: 3.0, ..ledger }.relative_error(), -0.5);
+    }
+
+    #[test]
+    fn every_account_is_listed_and_summed() {
+        let ledger = Ledger {
+            kinetic_translation: 1.0,
+            kinetic_rotation: 2.0,
+            kinetic_discretisation: 4.0,
+            elastic_normal: 8.0,
+            elastic_sliding: 16.0,
+            elastic_rolling: 32.0,
+            elastic_torsion: 64.0,
+            adhesive: 128.0,
+            gravity: 256.0,
+            ..Ledger::default()
+        };
+        let listed: f64 = ledger.accounts().iter().map(|(_, value)| value).sum();
+        assert_eq!(listed, ledger.held());
+        assert_eq!(listed, 511.0);
+    }
+}

@@ -1,0 +1,7 @@
+//! Neighbour search: cell order, candidate pairs, and when both are out of date.
+
+mod grid;
+mod skin;
+
+pub(crate) use grid::CellGrid;
+pub(crate) use skin::{Outdated, Skin};

@@ -1,0 +1,60 @@
+//! A wall that moves forth and back smoothly.
+
+use std::f64::consts::TAU;
+
+use pulvis_math::Vector3;
+
+/// Displacement X(t) = A/2 (1 − cos(2 π t/P)) from the place where the motion began: from rest to the
+/// amplitude A at half a period and back to rest at P.
+///
+/// # Source
+/// S. Luding, Granular Matter 10, 235 (2008), cosine-shaped wall motion of the tension tests.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cosine {
+    /// Displacement A at half a period [m].
+    pub displacement: Vector3,
+    /// Period P [s].
+    pub period: f64,
+    /// Number of periods, after which the wall stands still; a half leaves it displaced by A.
+    pub cycles: f64,
+}
+
+impl Cosine {
+    fn phase(&self, time: f64) -> f64 {
+        TAU * (time / self.period).min(self.cycles)
+    }
+
+    /// Duration of all cycles [s].
+    pub fn duration(&self) -> f64 {
+        self.cycles * self.period
+    }
+
+    /// Displacement at `time` [s] after the start [m].
+    pub fn displacement_at(&self, time: f64) -> Vector3 {
+        self.displacement * (0.5 * (1.0 - self.phase(time).cos()))
+    }
+
+    /// Velocity at `time` [s] after the start [m/s].
+    pub fn velocity_at(&self, time: f64) -> Vector3 {
+        if time >= self.duration() {
+            return Vector3::zero();
+        }
+        self.displacement * (0.5 * TAU / self.period * self.phase(time).sin())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_wall_reaches_its_amplitude_at_half_a_period_and_comes_back() {
+        let motion = Cosine { displacement: Vector3::new(2.0, 0.0, 0.0), period: 4.0, cycles: 2.0 };
+        assert_eq!(motion.displacement_at(0.0).x, 0.0);
+        assert_eq!(motion.displacement_at(2.0).x, 2.0);
+        assert!(motion.displacement_at(4.0).x.abs() < 1e-15);
+        assert!(motion.displacement_at(9.0).x.abs() < 1e-15);
+        assert!((motion.velocity_at(1.0).x - std::f64::consts::PI / 2.0).abs() < 1e-15);
+        assert_eq!(motion.velocity_at(8.0).x, 0.0);
+    }
+}
