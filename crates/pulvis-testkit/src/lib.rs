@@ -1,1 +1,33 @@
-//! See the crate description.
+//! Suites that every law of the catalogue must pass. Test code, used as a dev-dependency only.
+//!
+//! The suites read the catalogue's lists: a newly listed law is tested without another line. A
+//! suite asserts; where it fails, the law, its parameters and the seed of the case are printed.
+//!
+//! | module | checks |
+//! |---|---|
+//! | [`catalogue`] | descriptions are complete, examples build, wrong values are refused |
+//! | [`normal`] | forces along the line of centres: energy, continuity, history, lanes |
+//! | [`noncontact`] | attraction at a distance: potential, reach, hysteresis, lanes |
+//! | [`viscosity`] | dashpots: sign, bound, lanes |
+//! | [`contact`] | whole contacts: frame, exchange, mirror, rotation, energy, lanes |
+//! | [`bodies`] | two spheres or a sphere and a wall, integrated, for closed forms |
+//!
+//! `PULVIS_TESTKIT_CASES` multiplies the number of random cases, `PULVIS_TESTKIT_SEED` moves them.
+
+// All of this is test code: a failed expectation is a failed test.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+pub mod bodies;
+mod cases;
+pub mod catalogue;
+pub mod contact;
+mod draw;
+mod live;
+pub mod noncontact;
+pub mod normal;
+pub mod parameters;
+pub mod viscosity;
+
+pub use cases::for_each_case;
+pub use draw::Draw;
+pub use live::{AnyContact, Springs, contact};

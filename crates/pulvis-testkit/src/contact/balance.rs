@@ -1,0 +1,65 @@
+//! The energy balance of a whole contact along a smooth motion.
+
+use pulvis_contact::{ContactEnergies, ContactModel};
+
+use super::Dance;
+use crate::bodies::{Kinematics, pair_motion};
+use crate::live::contact;
+
+/// Closing error of the energy balance of `model` along `dance`, once for each number of steps: the
+/// largest part of the work done on the contact that is neither stored nor lost, over the largest
+/// energy that was turned over.
+///
+/// The balance starts with the first answer, in contact: the jump of a dashpot at touch belongs to the
+/// time integration and not to the law.
+pub fn closing_errors<const N: usize>(model: &ContactModel, dance: &Dance, steps: [usize; N]) -> [f64; N] {
+    steps.map(|count| closing_error(model, dance, count))
+}
+
+fn closing_error(model: &ContactModel, dance: &Dance, count: usize) -> f64 {
+    let mut contact = contact(model, dance.pair);
+    let dt = dance.duration / count as f64;
+    let mut before: Option<(Work, ContactEnergies<f64>)> = None;
+    let (mut work, mut turned_over, mut lost, mut start, mut worst) = (0.0, 0.0, 0.0, 0.0, 0.0_f64);
+    for step in 0..=count {
+        let [i, j] = dance.step(step, count);
+        let answer = contact.respond(&pair_motion(dance.radius_i, &i, Some((dance.radius_j, &j))), dt);
+        let now = Work { force: answer.force, torques: [answer.torque_i, answer.torque_j] };
+        let e = answer.energies;
+        if let Some((then, earlier)) = &before {
+            // As velocity-Verlet does the work: the mean force times the mid-step velocity.
+            let done = -0.5 * dt * (then.power(&i, &j) + now.power(&i, &j));
+            work += done;
+            turned_over += done.abs();
+            lost += e.dissipated_plastic
+                + e.dissipated_adhesive
+                + e.dissipated_sliding
+                + e.dissipated_rolling
+                + e.dissipated_torsion
+                + 0.5 * dt * (e.viscous_power + earlier.viscous_power);
+            worst = worst.max((work - lost - (stored(&e) - start)).abs());
+        } else {
+            start = stored(&e);
+        }
+        before = Some((now, e));
+    }
+    worst / turned_over
+}
+
+fn stored(e: &ContactEnergies<f64>) -> f64 {
+    e.elastic_normal + e.elastic_sliding + e.elastic_rolling + e.elastic_torsion + e.adhesive_potential
+}
+
+struct Work {
+    force: pulvis_math::Vector3,
+    torques: [pulvis_math::Vector3; 2],
+}
+
+impl Work {
+    /// Power that the contact gives to the bodies at their mid-step velocities [W].
+    fn power(&self, i: &Kinematics, j: &Kinematics) -> f64 {
+        self.force.dot(i.velocity_mid - j.velocity_mid)
+            + self.torques[0].dot(i.spin_mid)
+            + self.torques[1].dot(j.spin_mid)
+    }
+}

@@ -1,0 +1,72 @@
+//! A contact whose normal law is known at run time only.
+
+use pulvis_contact::{
+    Composition, ContactMemory, ContactModel, ContactResponse, NormalLaw, NormalLawVisitor, Pair, PairMotion,
+};
+use pulvis_math::Vector3;
+
+/// The springs of a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Springs {
+    /// Sliding spring [m].
+    pub sliding: Vector3,
+    /// Rolling spring [m].
+    pub rolling: Vector3,
+    /// Torsion spring along the line of centres [m].
+    pub torsion: f64,
+    /// 1 where the pair has touched since it was last out of reach.
+    pub touched: f64,
+}
+
+/// A contact with its memory.
+pub trait AnyContact {
+    /// Forces, torques and energies after the step of `time_step` [s] that led to `motion`.
+    fn respond(&mut self, motion: &PairMotion<f64>, time_step: f64) -> ContactResponse<f64>;
+    /// The springs.
+    fn springs(&self) -> Springs;
+}
+
+/// A virgin contact of `model` between the bodies of `pair`.
+pub fn contact(model: &ContactModel, pair: Pair) -> Box<dyn AnyContact> {
+    model.normal.accept(Boxed { composition: model.composition, pair })
+}
+
+struct Boxed {
+    composition: Composition,
+    pair: Pair,
+}
+
+impl NormalLawVisitor for Boxed {
+    type Output = Box<dyn AnyContact>;
+    fn visit<N: NormalLaw>(self, law: N) -> Box<dyn AnyContact> {
+        Box::new(Live {
+            law,
+            composition: self.composition,
+            pair: self.pair,
+            memory: ContactMemory::default(),
+        })
+    }
+}
+
+struct Live<N: NormalLaw> {
+    law: N,
+    composition: Composition,
+    pair: Pair,
+    memory: ContactMemory<f64, N::Memory<f64>>,
+}
+
+impl<N: NormalLaw> AnyContact for Live<N> {
+    fn respond(&mut self, motion: &PairMotion<f64>, time_step: f64) -> ContactResponse<f64> {
+        let Self { law, composition, pair, memory } = self;
+        if composition.has_friction() {
+            composition.respond::<f64, N, true>(law, pair, motion, time_step, memory)
+        } else {
+            composition.respond::<f64, N, false>(law, pair, motion, time_step, memory)
+        }
+    }
+
+    fn springs(&self) -> Springs {
+        let ContactMemory { touched, sliding, rolling, torsion, .. } = self.memory;
+        Springs { sliding, rolling, torsion, touched }
+    }
+}

@@ -1,0 +1,152 @@
+//! Parameter values of a law: those of its example, and random ones around them.
+
+use pulvis_contact::catalogue::{
+    InvalidParameter, Kind, LawEntry, Parameter, Presence, Range, Value, Values,
+};
+use pulvis_contact::{Pair, SpringSlider, friction};
+
+use crate::draw::Draw;
+
+/// The name and the values that the example of `entry` gives. Examples are written in the unit of
+/// the catalogue, so that they need no conversion.
+pub fn example(entry: &LawEntry) -> (String, Values) {
+    let table: toml::Table = entry.example.parse().expect("the example is TOML");
+    let mut name = entry.name.to_owned();
+    let mut values = Values::new();
+    for (key, item) in &table {
+        if key == "law" {
+            item.as_str().expect("a law's name is text").clone_into(&mut name);
+            continue;
+        }
+        let parameter = entry.parameter(key).unwrap_or_else(|| panic!("{}: unknown key {key}", entry.name));
+        values.set(key, value(parameter, item));
+    }
+    (name, values)
+}
+
+fn value(parameter: &Parameter, item: &toml::Value) -> Value {
+    match (parameter.kind, item) {
+        (Kind::Choice(_), toml::Value::String(text)) => Value::Choice(text.clone()),
+        (Kind::Number { .. }, toml::Value::String(text)) => {
+            let (number, unit) = text.split_once(' ').expect("a number and a unit");
+            assert_eq!(unit, parameter.unit(), "{}: the unit of the example", parameter.name);
+            Value::Number(number.parse().expect("a number"))
+        }
+        (Kind::Number { .. }, toml::Value::Float(number)) => bare(parameter, *number),
+        (Kind::Number { .. }, toml::Value::Integer(number)) => bare(parameter, *number as f64),
+        _ => panic!("{}: the example's value is of the wrong kind", parameter.name),
+    }
+}
+
+fn bare(parameter: &Parameter, number: f64) -> Value {
+    assert_eq!(parameter.unit(), "1", "{}: only pure numbers go without a unit", parameter.name);
+    Value::Number(number)
+}
+
+/// A law of random parameters: those of the example times a factor up to thirty, now and then at the
+/// end of the range or equal to another parameter. Draws again where the parameters do not fit.
+pub fn random_law<L>(
+    entry: &LawEntry,
+    draw: &mut Draw,
+    build: impl Fn(&str, &Values) -> Option<Result<L, InvalidParameter>>,
+) -> L {
+    for _ in 0..1000 {
+        let values = random_values(entry, draw);
+        match build(entry.name, &values).expect("a listed law") {
+            Ok(law) => return law,
+            Err(InvalidParameter::Inconsistent { .. } | InvalidParameter::Missing { .. }) => {}
+            Err(error) => panic!("{}: a value inside its range is refused: {error}", entry.name),
+        }
+    }
+    panic!("{}: a thousand draws and no set of parameters that fits", entry.name)
+}
+
+/// A friction law of random parameters.
+pub fn random_friction(entry: &LawEntry, draw: &mut Draw) -> Option<SpringSlider> {
+    random_law(entry, draw, |name, values| friction::build(entry.role, name, values))
+}
+
+fn random_values(entry: &LawEntry, draw: &mut Draw) -> Values {
+    let (_, around) = example(entry);
+    let mut values = Values::new();
+    for parameter in entry.parameters {
+        let needed = parameter.presence == Presence::Required;
+        let in_example = around.get(parameter.name).is_some();
+        // What the example names is mostly kept: laws with several ways of being given have one there.
+        let given = needed || draw.chance(if in_example { 0.8 } else { 0.3 });
+        if !given {
+            continue;
+        }
+        let chosen = match parameter.kind {
+            Kind::Choice(options) => Value::Choice(draw.one_of(options).name.to_owned()),
+            Kind::Number { range, may_be_infinite, .. } => {
+                let center = center(parameter, &around);
+                Value::Number(random_number(range, may_be_infinite, center, &values, draw))
+            }
+        };
+        values.set(parameter.name, chosen);
+    }
+    values
+}
+
+fn center(parameter: &Parameter, around: &Values) -> f64 {
+    match (around.optional_number(parameter.name), parameter.presence) {
+        (Some(number), _) | (None, Presence::Default(number)) if number > 0.0 => number,
+        _ => 0.5,
+    }
+}
+
+fn random_number(range: Range, may_be_infinite: bool, center: f64, others: &Values, draw: &mut Draw) -> f64 {
+    if may_be_infinite && draw.chance(0.2) {
+        return f64::INFINITY;
+    }
+    if draw.chance(0.15) {
+        match range {
+            Range::NonNegative => return 0.0,
+            Range::AtLeast(end) | Range::Within(_, end) => return end,
+            Range::Any | Range::Positive => {}
+        }
+    }
+    let equal: Vec<f64> = others
+        .iter()
+        .filter_map(|(_, value)| match value {
+            Value::Number(number) if range.holds(*number) => Some(*number),
+            _ => None,
+        })
+        .collect();
+    if !equal.is_empty() && draw.chance(0.1) {
+        return *draw.one_of(&equal);
+    }
+    let number = draw.log_between(center / 30.0, center * 30.0);
+    match range {
+        Range::Within(above, end) => above + (end - above) * draw.between(0.01, 1.0),
+        Range::AtLeast(least) => number.max(least),
+        _ => number,
+    }
+}
+
+/// Masses [kg] and radii [m] of two random spheres; every third time `None`, a wall, for the second.
+pub fn random_bodies(draw: &mut Draw) -> ((f64, f64), Option<(f64, f64)>) {
+    let mut body = |near: f64| {
+        let radius = near * draw.log_between(0.3, 3.0);
+        let density = draw.between(500.0, 8000.0);
+        (density * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3), radius)
+    };
+    let near = 1e-3;
+    let (first, second) = (body(near), body(near));
+    (first, draw.chance(0.67).then_some(second))
+}
+
+/// The pair of two bodies, each a mass [kg] and a radius [m].
+pub fn pair_of((mass_i, radius_i): (f64, f64), body_j: Option<(f64, f64)>) -> Pair {
+    match body_j {
+        Some((mass_j, radius_j)) => Pair::spheres(mass_i, mass_j, radius_i, radius_j),
+        None => Pair::wall(mass_i, radius_i),
+    }
+}
+
+/// A pair of random bodies.
+pub fn random_pair(draw: &mut Draw) -> Pair {
+    let (body_i, body_j) = random_bodies(draw);
+    pair_of(body_i, body_j)
+}
