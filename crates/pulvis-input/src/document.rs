@@ -6,6 +6,7 @@ use crate::load::read_source;
 use crate::overrides::{Replacement, replace};
 use crate::problem::Problem;
 use crate::reader::TableReader;
+use crate::setting::set;
 use crate::source::Source;
 use crate::syntax::syntax_errors;
 use crate::value::Table;
@@ -90,6 +91,16 @@ impl Document {
     pub fn with_override(&self, path: &str, value: impl Into<Replacement>) -> Result<Self, InputErrors> {
         let mut root = self.root.clone();
         replace(&mut root, &self.source, path, value.into())?;
+        Ok(Self { source: Arc::clone(&self.source), root })
+    }
+
+    /// The same file with a value or table set, whether it was there before or not, as a stage does it.
+    ///
+    /// Tables on the way are made. Setting a key called `law` drops the neighbours that the new law does
+    /// not know. Errors will point at the new value.
+    pub(crate) fn with_setting(&self, path: &str, value: Replacement) -> Result<Self, Problem> {
+        let mut root = self.root.clone();
+        set(&mut root, path, value)?;
         Ok(Self { source: Arc::clone(&self.source), root })
     }
 }

@@ -108,6 +108,14 @@ impl InputErrors {
         Self { errors, omitted }
     }
 
+    /// The same mistakes, with advice where they have none yet.
+    pub(crate) fn with_help(mut self, help: &str) -> Self {
+        for error in &mut self.errors {
+            error.help.get_or_insert_with(|| help.to_owned());
+        }
+        self
+    }
+
     /// The mistakes, in the order of the file.
     pub fn errors(&self) -> &[InputError] {
         &self.errors

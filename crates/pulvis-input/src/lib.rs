@@ -24,6 +24,7 @@
 //! ```
 
 pub mod collision;
+pub mod contact;
 pub mod context;
 mod decimal;
 pub mod document;
@@ -36,6 +37,8 @@ pub mod problem;
 pub mod quantity;
 pub mod reader;
 mod rule;
+pub mod scenario;
+mod setting;
 pub mod shape;
 mod similar;
 mod source;
@@ -44,6 +47,7 @@ pub mod unit;
 mod value;
 pub mod value_reader;
 
+pub use contact::{ContactLaws, NamedLaw, read_contact, read_contact_model};
 pub use context::{Location, Reported};
 pub use document::Document;
 pub use error::{InputError, InputErrors, Place};
@@ -54,5 +58,6 @@ pub use problem::Problem;
 pub use pulvis_math::Dimension;
 pub use quantity::{QuantityError, QuantityRule, parse_quantity};
 pub use reader::TableReader;
+pub use scenario::Scenario;
 pub use shape::{Boolean, Choice, Integer, Name, Shape, Text};
 pub use value_reader::ValueReader;

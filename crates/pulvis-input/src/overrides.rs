@@ -46,7 +46,7 @@ impl Replacement {
     }
 
     /// Puts the value in the place of another one.
-    fn apply(self, node: &mut Node) {
+    pub(crate) fn apply(self, node: &mut Node) {
         node.value = match self {
             Self::Si(value) => Value::Si(value),
             Self::Text(text) => Value::Text(text),

@@ -1,0 +1,123 @@
+//! All laws of one contact, read as the catalogue describes them.
+
+use crate::context::Reported;
+use crate::parameters::{read_parameters, refuse_parameter};
+use crate::problem::Problem;
+use crate::reader::TableReader;
+use crate::shape::Name;
+use pulvis_contact::catalogue::{InvalidParameter, Law, LawEntry, Role, Values};
+use pulvis_contact::{Composition, ContactModel, Conventions, NonContact, Normal, Viscosity, friction};
+
+/// A law by its name in the catalogue, with its parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedLaw {
+    /// Which part of the contact it is.
+    pub role: Role,
+    /// Its name in the catalogue.
+    pub name: &'static str,
+    /// Its parameters in SI, defaults filled in.
+    pub values: Values,
+}
+
+/// A contact, ready to be computed, and the names and parameters that it was made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactLaws {
+    /// The contact.
+    pub model: ContactModel,
+    /// Its laws, one of each role, in the order of [`Role::ALL`].
+    pub laws: Vec<NamedLaw>,
+}
+
+/// Reads the tables `normal`, `noncontact`, … of one contact. All but `normal` may be left out.
+///
+/// # Errors
+/// Laws or parameters are missing, unknown, out of range or contradict each other.
+pub fn read_contact_model(table: TableReader<'_>) -> Result<ContactModel, Reported> {
+    read_contact(table).map(|contact| contact.model)
+}
+
+/// As [`read_contact_model`], with the names and parameters of the laws.
+///
+/// # Errors
+/// As of [`read_contact_model`].
+pub fn read_contact(mut table: TableReader<'_>) -> Result<ContactLaws, Reported> {
+    let normal = read_law(&mut table, Role::Normal, Normal::build);
+    let noncontact = read_law(&mut table, Role::NonContact, NonContact::build);
+    let viscosity = read_law(&mut table, Role::Viscosity, Viscosity::build);
+    let mut slider = |role| read_law(&mut table, role, |name, values| friction::build(role, name, values));
+    let (sliding, rolling, torsion) = (slider(Role::Sliding), slider(Role::Rolling), slider(Role::Torsion));
+    let conventions = read_conventions(&mut table);
+    table.finish();
+    let (normal, normal_law) = normal?;
+    let (noncontact, noncontact_law) = noncontact?;
+    let (viscosity, viscosity_law) = viscosity?;
+    let (sliding, sliding_law) = sliding?;
+    let (rolling, rolling_law) = rolling?;
+    let (torsion, torsion_law) = torsion?;
+    let (conventions, choices) = conventions?;
+    let composition = Composition { noncontact, viscosity, sliding, rolling, torsion, conventions };
+    let laws =
+        vec![normal_law, noncontact_law, viscosity_law, sliding_law, rolling_law, torsion_law, choices];
+    Ok(ContactLaws { model: ContactModel { normal, composition }, laws })
+}
+
+/// The laws of the catalogue that can play a role.
+pub fn entries(role: Role) -> Vec<&'static LawEntry> {
+    match role {
+        Role::Normal => Normal::ENTRIES.iter().collect(),
+        Role::NonContact => NonContact::ENTRIES.iter().collect(),
+        Role::Viscosity => Viscosity::ENTRIES.iter().collect(),
+        Role::Sliding | Role::Rolling | Role::Torsion => friction::entries(role),
+        Role::Conventions => vec![&Conventions::ENTRY],
+    }
+}
+
+/// Reads the table of one role: `law`, and the parameters of the law that it names.
+fn read_law<L>(
+    contact: &mut TableReader<'_>,
+    role: Role,
+    build: impl Fn(&str, &Values) -> Option<Result<L, InvalidParameter>>,
+) -> Result<(L, NamedLaw), Reported> {
+    let entries = entries(role);
+    let names: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
+    let table = match role {
+        Role::Normal => Some(contact.required_table(role.key())?),
+        _ => contact.optional_table(role.key())?,
+    };
+    let Some(mut table) = table else {
+        let unknown = || contact.refuse(role.key(), Problem::unknown_choice("none", &names));
+        let none = entries.iter().find(|entry| entry.name == "none").ok_or_else(unknown)?;
+        let values = Values::new();
+        let law = build(none.name, &values).ok_or_else(unknown)?;
+        let law = law.map_err(|error| refuse_parameter(contact, error))?;
+        return Ok((law, NamedLaw { role, name: none.name, values }));
+    };
+    let name = table.required("law", Name(&names))?;
+    let unknown = |table: &TableReader<'_>| table.refuse("law", Problem::unknown_choice(name, &names));
+    let entry = entries.iter().find(|entry| entry.name == name).ok_or_else(|| unknown(&table))?;
+    let law = read_parameters(&mut table, entry.parameters).and_then(|values| {
+        let values = entry.complete(&values).map_err(|error| refuse_parameter(&table, error))?;
+        let law = build(name, &values).ok_or_else(|| unknown(&table))?;
+        let law = law.map_err(|error| refuse_parameter(&table, error))?;
+        Ok((law, NamedLaw { role, name: entry.name, values }))
+    });
+    table.finish();
+    law
+}
+
+/// Reads the table `conventions`, which holds choices and no law.
+fn read_conventions(contact: &mut TableReader<'_>) -> Result<(Conventions, NamedLaw), Reported> {
+    let entry = &Conventions::ENTRY;
+    let role = Role::Conventions;
+    let given = match contact.optional_table(role.key())? {
+        Some(mut table) => {
+            let values = read_parameters(&mut table, entry.parameters);
+            table.finish();
+            values?
+        }
+        None => Values::new(),
+    };
+    let built = entry.complete(&given).and_then(|values| Ok((Conventions::from_values(&values)?, values)));
+    let (conventions, values) = built.map_err(|error| refuse_parameter(contact, error))?;
+    Ok((conventions, NamedLaw { role, name: entry.name, values }))
+}

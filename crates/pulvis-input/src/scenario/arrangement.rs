@@ -1,0 +1,135 @@
+//! Where the particles of a group start.
+
+use super::domain::{Extent, read_extent};
+use super::points::{PointsError, read_points};
+use crate::context::Reported;
+use crate::list::{List, Vector};
+use crate::problem::Problem;
+use crate::quantity::QuantityRule;
+use crate::reader::TableReader;
+use crate::shape::{Integer, Name, Text};
+use pulvis_math::{Dimension, Vector3};
+use std::path::{Path, PathBuf};
+
+/// Where the particles of a group start.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Arrangement {
+    /// On a simple cubic lattice.
+    Lattice(Lattice),
+    /// At random, whole and without overlap, in this block.
+    Random(Extent),
+    /// As a file says.
+    File {
+        /// The absolute path of the file.
+        path: PathBuf,
+        /// What stands in it; radius and velocity are given for all grains or for none.
+        grains: Vec<Grain>,
+    },
+    /// At these positions [m].
+    List(Vec<Vector3>),
+}
+
+/// A simple cubic lattice that fills a block: sites are the centres of cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lattice {
+    /// Lower corner of the block [m].
+    pub lower: Vector3,
+    /// Number of cells along x, y, z.
+    pub counts: [usize; 3],
+    /// Edge of a cell [m].
+    pub spacing: f64,
+    /// Largest random displacement along each axis, as a fraction of the spacing [1].
+    pub jitter: f64,
+}
+
+/// A particle of a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grain {
+    /// Position of the centre [m].
+    pub position: Vector3,
+    /// Radius [m], if the file has them.
+    pub radius: Option<f64>,
+    /// Velocity [m/s], if the file has them.
+    pub velocity: Option<Vector3>,
+}
+
+impl Lattice {
+    /// The number of sites.
+    pub fn site_count(&self) -> usize {
+        self.counts.iter().product()
+    }
+
+    /// The sites, x fastest and z slowest: lower + (i + 1/2) spacing [m].
+    pub fn sites(&self) -> impl Iterator<Item = Vector3> + '_ {
+        (0..self.site_count()).map(|number| {
+            let [along_x, along_y, _] = self.counts;
+            self.site([number % along_x, number / along_x % along_y, number / (along_x * along_y)])
+        })
+    }
+
+    /// The site in the cell with these numbers along x, y, z [m].
+    pub fn site(&self, cell: [usize; 3]) -> Vector3 {
+        // A lattice of more than 2^53 cells along an axis does not fit into any memory.
+        #[allow(clippy::cast_precision_loss)]
+        let offset = cell.map(|number| (number as f64 + 0.5) * self.spacing);
+        self.lower + Vector3::from(offset)
+    }
+
+    /// The block that the cells fill.
+    pub fn extent(&self) -> Extent {
+        #[allow(clippy::cast_precision_loss)]
+        let size = self.counts.map(|count| count as f64 * self.spacing);
+        Extent { lower: self.lower, upper: self.lower + Vector3::from(size) }
+    }
+}
+
+/// More particles than this do not fit into any memory: the number is a slip.
+pub(super) const MOST_PARTICLES: i64 = 10_000_000_000;
+
+/// Reads `[particles.arrangement]`; paths of files are relative to `folder`.
+pub(super) fn read_arrangement(mut table: TableReader<'_>, folder: &Path) -> Result<Arrangement, Reported> {
+    let read = match table.required("kind", Name(&["lattice", "random", "file", "list"]))? {
+        "lattice" => read_lattice(&mut table).map(Arrangement::Lattice),
+        "random" => read_extent(&mut table).map(Arrangement::Random),
+        "file" => read_file(&mut table, folder),
+        _ => table
+            .required("positions", List::of(Vector::of(Dimension::LENGTH)).at_least(1))
+            .map(|positions| Arrangement::List(positions.into_iter().map(Vector3::from).collect())),
+    };
+    table.finish();
+    read
+}
+
+fn read_lattice(table: &mut TableReader<'_>) -> Result<Lattice, Reported> {
+    let lower = table.required("lower", Vector::of(Dimension::LENGTH));
+    let counts = table.required("counts", List::of(Integer::between(1, MOST_PARTICLES)).exactly(3));
+    let spacing = table.required("spacing", QuantityRule::of(Dimension::LENGTH).above(0.0));
+    // Beyond half a spacing a particle could change places with its neighbour.
+    let jitter = table.or("jitter", QuantityRule::of(Dimension::NONE).at_least(0.0).at_most(0.5), 0.0);
+    let mut sites: i64 = 1;
+    let mut cells = [1; 3];
+    for (cell, count) in cells.iter_mut().zip(counts?) {
+        *cell = usize::try_from(count).unwrap_or(usize::MAX);
+        sites = sites.saturating_mul(count);
+    }
+    if sites > MOST_PARTICLES {
+        let problem = Problem::rule(format!("the lattice has {sites} sites"), "1e10 or fewer");
+        return Err(table.refuse("counts", problem));
+    }
+    Ok(Lattice { lower: lower?.into(), counts: cells, spacing: spacing?, jitter: jitter? })
+}
+
+fn read_file(table: &mut TableReader<'_>, folder: &Path) -> Result<Arrangement, Reported> {
+    let given = table.required("path", Text)?;
+    let path = folder.join(given);
+    let path = std::path::absolute(&path).unwrap_or(path);
+    match read_points(&path) {
+        Ok(grains) => Ok(Arrangement::File { path, grains }),
+        Err(error @ PointsError::Unreadable { .. }) => Err(table.refuse_with_help(
+            "path",
+            Problem::Refused(Box::new(error)),
+            "the path is relative to the folder of the scenario",
+        )),
+        Err(error) => Err(table.refuse("path", Problem::Refused(Box::new(error)))),
+    }
+}

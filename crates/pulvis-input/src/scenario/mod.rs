@@ -1,0 +1,161 @@
+//! The scenario of a run: materials, contacts, particles, walls and stages, checked and in SI.
+//!
+//! A [`Scenario`] is plain data. Whoever has one may rely on it: every index is valid, every pair of
+//! materials that can meet has a contact, every stage has an end. Nothing later checks that again.
+//! What needs the particles themselves (do they overlap, is the time step short enough) is left to
+//! the run. `docs/scenario.md` describes the file key by key.
+//!
+//! ```
+//! use pulvis_input::scenario::{Arrangement, Scenario};
+//!
+//! let scenario = Scenario::from_str("gas.toml", r#"
+//! [domain]
+//! lower = ["0 mm", "0 mm", "0 mm"]
+//! upper = ["10 mm", "10 mm", "10 mm"]
+//! periodic = ["x", "y", "z"]
+//! [materials.glass]
+//! density = "2500 kg/m^3"
+//! [contacts.glass-glass.normal]
+//! law = "linear"
+//! k = "1 kN/m"
+//! [[particles]]
+//! material = "glass"
+//! radius = { distribution = "fixed", value = "0.2 mm" }
+//! arrangement = { kind = "lattice", lower = ["0 mm", "0 mm", "0 mm"], counts = [10, 10, 10], spacing = "1 mm" }
+//! velocity = { standard_deviation = "1 m/s" }
+//! [[stages]]
+//! name = "mix"
+//! until = { time = "1 ms" }
+//! "#)?;
+//! assert_eq!(scenario.particles[0].count, 1000);
+//! assert!(matches!(scenario.particles[0].arrangement, Arrangement::Lattice(_)));
+//! assert_eq!(scenario.stages[0].until.time, Some(1e-3));
+//! # Ok::<(), pulvis_input::InputErrors>(())
+//! ```
+
+mod arrangement;
+mod axis;
+mod contacts;
+mod controls;
+mod domain;
+mod materials;
+mod output;
+mod particles;
+mod placement;
+mod points;
+mod radius;
+
+mod stages;
+mod switches;
+mod time;
+mod until;
+mod walk;
+mod walls;
+
+pub use arrangement::{Arrangement, Grain, Lattice};
+pub use axis::{Axis, BoxFace, Side};
+pub use contacts::Contact;
+pub use controls::{CosineMotion, Servo, WallControl};
+pub use domain::{Background, Domain, Extent};
+pub use materials::Material;
+pub use output::{Dimensionless, Interval, OutputPlan, Snapshots};
+pub use particles::{ParticleGroup, VelocityPlan};
+pub use points::PointsError;
+pub use radius::RadiusDistribution;
+pub use stages::Stage;
+pub use time::TimeStep;
+pub use until::{Crossing, StopRules, StrainRule, StressRule};
+pub use walls::Wall;
+
+use crate::document::Document;
+use crate::error::InputErrors;
+use pulvis_math::Vector3;
+use std::path::{Path, PathBuf};
+
+/// Everything that a run needs to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// Where it comes from.
+    pub source: ScenarioSource,
+    /// What the author calls it.
+    pub title: Option<String>,
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// Acceleration of gravity before the first stage [m/s^2].
+    pub gravity: Vector3,
+    /// The periodic directions, if there are any.
+    pub domain: Option<Domain>,
+    /// The materials, in the order of the file.
+    pub materials: Vec<Material>,
+    /// One contact for every pair of materials that can meet, before the first stage.
+    pub contacts: Vec<Contact>,
+    /// Drag by a background, before the first stage.
+    pub background: Background,
+    /// The groups of particles, at least one.
+    pub particles: Vec<ParticleGroup>,
+    /// Lower and upper corner of the box, if there is one; its walls are among [`Self::walls`].
+    pub enclosure: Option<Extent>,
+    /// All plane walls; those of the box come first. At the start all of them are fixed.
+    pub walls: Vec<Wall>,
+    /// How long a time step is, before the first stage.
+    pub time: TimeStep,
+    /// The stages, at least one.
+    pub stages: Vec<Stage>,
+    /// What is written.
+    pub output: OutputPlan,
+}
+
+/// Where a scenario comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScenarioSource {
+    /// The file as the user named it.
+    pub name: String,
+    /// The path of the file; `None` for a text that came from elsewhere.
+    pub path: Option<PathBuf>,
+    /// The whole text.
+    pub text: String,
+}
+
+impl Scenario {
+    /// Reads and checks a scenario file.
+    ///
+    /// # Errors
+    /// All mistakes of the file, and of the files that it names.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, InputErrors> {
+        let path = path.as_ref();
+        Self::from_document(&Document::load(path)?, Some(path))
+    }
+
+    /// Reads and checks a text; `name` stands for the file in messages, and files that the scenario
+    /// names are looked for in the current folder.
+    ///
+    /// # Errors
+    /// All mistakes.
+    pub fn from_str(name: &str, text: &str) -> Result<Self, InputErrors> {
+        Self::from_document(&Document::from_str(name, text)?, None)
+    }
+
+    /// Reads and checks a parsed file, for example one in which values were replaced. `path` is where
+    /// it stands.
+    ///
+    /// # Errors
+    /// All mistakes.
+    pub fn from_document(document: &Document, path: Option<&Path>) -> Result<Self, InputErrors> {
+        walk::scenario(document, path)
+    }
+
+    /// The index of a material.
+    pub fn material(&self, name: &str) -> Option<usize> {
+        self.materials.iter().position(|material| material.name == name)
+    }
+
+    /// The index of a wall.
+    pub fn wall(&self, name: &str) -> Option<usize> {
+        self.walls.iter().position(|wall| wall.name == name)
+    }
+
+    /// The number of particles of all groups.
+    pub fn particle_count(&self) -> usize {
+        self.particles.iter().map(|group| group.count).sum()
+    }
+}

@@ -1,0 +1,138 @@
+//! What a run writes, how often, and where.
+
+use crate::context::Reported;
+use crate::problem::Problem;
+use crate::quantity::QuantityRule;
+use crate::reader::TableReader;
+use crate::shape::{Boolean, Integer, Text};
+use crate::value_reader::ValueReader;
+use pulvis_math::Dimension;
+use std::path::{Path, PathBuf};
+
+/// What a run writes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputPlan {
+    /// The folder of all files, relative to the current folder.
+    pub folder: PathBuf,
+    /// How often the time series gets a row.
+    pub timeseries: Interval,
+    /// When particles and contacts are written.
+    pub snapshots: Snapshots,
+    /// Whether plots are drawn.
+    pub plots: bool,
+    /// The scales of the dimensionless columns, if these are wanted.
+    pub dimensionless: Option<Dimensionless>,
+}
+
+/// How often something happens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Interval {
+    /// After this many time steps, at least 1.
+    Steps(u64),
+    /// After this time [s].
+    Time(f64),
+}
+
+/// When particles and contacts are written for ParaView.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Snapshots {
+    /// Never.
+    Never,
+    /// At the end of each stage.
+    StageEnds,
+    /// Regularly, and at the end of each stage.
+    Every(Interval),
+}
+
+/// Scales of D = (L − L0)/length and F* = F/(stiffness length).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dimensionless {
+    /// Length scale [m].
+    pub length: f64,
+    /// Stiffness scale [N/m].
+    pub stiffness: f64,
+}
+
+/// Rows of the time series are written after this many steps where nothing is said.
+const DEFAULT_STEPS: u64 = 100;
+
+/// Reads `[output]`; `source` is the scenario file, whose name the folder takes where it has none.
+pub(super) fn read_output(root: &mut TableReader<'_>, source: &Path) -> Result<OutputPlan, Reported> {
+    let stem = source.file_stem().map_or_else(|| "scenario".into(), |stem| stem.to_string_lossy());
+    let default = OutputPlan {
+        folder: PathBuf::from(format!("{stem}-run")),
+        timeseries: Interval::Steps(DEFAULT_STEPS),
+        snapshots: Snapshots::StageEnds,
+        plots: true,
+        dimensionless: None,
+    };
+    let Some(mut table) = root.optional_table("output")? else { return Ok(default) };
+    let folder = table.optional("folder", Text);
+    let timeseries = table.value("timeseries").map(|value| read_interval(&value)).transpose();
+    let snapshots = table.value("vtk").map(|value| read_snapshots(&value)).transpose();
+    let plots = table.or("plots", Boolean, default.plots);
+    let dimensionless = table.optional_table("dimensionless").and_then(|scales| match scales {
+        Some(scales) => read_dimensionless(scales).map(Some),
+        None => Ok(None),
+    });
+    table.finish();
+    Ok(OutputPlan {
+        folder: folder?.map_or(default.folder, PathBuf::from),
+        timeseries: timeseries?.unwrap_or(default.timeseries),
+        snapshots: snapshots?.unwrap_or(default.snapshots),
+        plots: plots?,
+        dimensionless: dimensionless?,
+    })
+}
+
+fn read_snapshots(value: &ValueReader<'_>) -> Result<Snapshots, Reported> {
+    if value.is_table() {
+        return read_interval(value).map(Snapshots::Every);
+    }
+    let wanted = value.read(VtkShape)?;
+    Ok(if wanted { Snapshots::StageEnds } else { Snapshots::Never })
+}
+
+/// `true`, `false` or a table, as the message names it.
+struct VtkShape;
+
+impl crate::shape::Shape for VtkShape {
+    type Output = bool;
+
+    fn describe(&self) -> String {
+        "false, true (at the end of each stage) or { interval = \"1 us\" }".to_owned()
+    }
+
+    fn read(&self, value: &ValueReader<'_>) -> Result<bool, Reported> {
+        match value.raw() {
+            crate::value::Value::Boolean(wanted) => Ok(*wanted),
+            _ => Err(value.wrong_type(&self.describe())),
+        }
+    }
+}
+
+fn read_interval(value: &ValueReader<'_>) -> Result<Interval, Reported> {
+    let mut table = value.table()?;
+    let steps = table.optional("steps", Integer::at_least(1));
+    let interval = table.optional("interval", QuantityRule::of(Dimension::TIME).above(0.0));
+    let result = steps.and_then(|steps| match (steps, interval?) {
+        (Some(steps), None) => Ok(Interval::Steps(steps.unsigned_abs())),
+        (None, Some(interval)) => Ok(Interval::Time(interval)),
+        (Some(_), Some(_)) => {
+            Err(table.refuse("interval", Problem::rule("given beside `steps`", "only one of them")))
+        }
+        (None, None) => {
+            let expected = "{ steps = 100 } or { interval = \"1 us\" }";
+            Err(table.refuse("", Problem::rule("the table is empty", expected)))
+        }
+    });
+    table.finish();
+    result
+}
+
+fn read_dimensionless(mut table: TableReader<'_>) -> Result<Dimensionless, Reported> {
+    let length = table.required("length", QuantityRule::of(Dimension::LENGTH).above(0.0));
+    let stiffness = table.required("stiffness", QuantityRule::of(Dimension::STIFFNESS).above(0.0));
+    table.finish();
+    Ok(Dimensionless { length: length?, stiffness: stiffness? })
+}

@@ -1,0 +1,211 @@
+//! Groups of particles.
+
+use super::arrangement::{Arrangement, MOST_PARTICLES, read_arrangement};
+use super::domain::Extent;
+use super::materials::{Material, read_material_name};
+use super::radius::{RadiusDistribution, read_radius};
+use crate::context::{Location, Reported};
+use crate::list::Vector;
+use crate::problem::Problem;
+use crate::quantity::QuantityRule;
+use crate::reader::TableReader;
+use crate::shape::Integer;
+use pulvis_math::{Dimension, Vector3};
+use std::f64::consts::PI;
+use std::path::Path;
+
+/// Particles that have a material, a distribution of sizes and a start in common.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParticleGroup {
+    /// Index of the material, which has a density.
+    pub material: usize,
+    /// Number of particles, at least 1.
+    pub count: usize,
+    /// Radii; `None` where the file of the arrangement gives them.
+    pub radius: Option<RadiusDistribution>,
+    /// Where the particles start.
+    pub arrangement: Arrangement,
+    /// How they move at the start.
+    pub velocity: VelocityPlan,
+}
+
+/// Velocities at the start of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct VelocityPlan {
+    /// Mean velocity [m/s]; zero where the file of the arrangement gives velocities.
+    pub mean: Vector3,
+    /// Standard deviation of each component, Gaussian [m/s].
+    pub standard_deviation: f64,
+    /// Angular velocity of every particle [rad/s].
+    pub spin: Vector3,
+}
+
+/// A group and the place where its arrangement stands, for checks that need the walls.
+pub(super) type PlacedGroup = (ParticleGroup, Location);
+
+/// Reads `[[particles]]`.
+pub(super) fn read_particles(
+    root: &mut TableReader<'_>,
+    materials: &[Material],
+    folder: &Path,
+) -> Result<Vec<PlacedGroup>, Reported> {
+    let tables = root.tables("particles")?;
+    if tables.is_empty() {
+        let expected = "one or more tables [[particles]]".to_owned();
+        let problem = Problem::MissingKey { key: "particles".to_owned(), expected };
+        return Err(root.refuse("particles", problem));
+    }
+    let groups: Vec<_> = tables.into_iter().map(|table| read_group(table, materials, folder)).collect();
+    groups.into_iter().collect()
+}
+
+fn read_group(
+    mut table: TableReader<'_>,
+    materials: &[Material],
+    folder: &Path,
+) -> Result<PlacedGroup, Reported> {
+    let material =
+        read_material_name(&mut table, "material", materials).and_then(|index| match materials.get(index) {
+            Some(Material { name, density: None }) => {
+                let found = format!("{name} has no density");
+                let expected = format!("`density` in [materials.{name}], because particles are made of it");
+                Err(table.refuse("material", Problem::rule(found, expected)))
+            }
+            _ => Ok(index),
+        });
+    let count = table.optional("count", Integer::between(1, MOST_PARTICLES));
+    let place = table.location("arrangement");
+    let arrangement = table.required_table("arrangement").and_then(|table| read_arrangement(table, folder));
+    let radius = table.optional_table("radius").and_then(|radius| radius.map(read_radius).transpose());
+    let velocity = table.optional_table("velocity");
+    let velocity = velocity.and_then(|velocity| match velocity {
+        Some(velocity) => read_velocity(velocity, arrangement.as_ref().ok()),
+        None => Ok(VelocityPlan::default()),
+    });
+    let count = match (count, &arrangement) {
+        (Ok(count), Ok(arrangement)) => fitting_count(&table, arrangement, count),
+        (Err(reported), _) | (_, &Err(reported)) => Err(reported),
+    };
+    let radius = match (radius, &arrangement) {
+        (Ok(radius), Ok(arrangement)) => fitting_radius(&table, arrangement, radius),
+        (Err(reported), _) | (_, &Err(reported)) => Err(reported),
+    };
+    if let (Ok(Arrangement::Random(block)), Ok(count), Ok(Some(radius))) = (&arrangement, &count, &radius) {
+        fitting_block(&table, block, *count, radius.limits().0)?;
+    }
+    table.finish();
+    let (material, count, radius) = (material?, count?, radius?);
+    let (arrangement, velocity) = (arrangement?, velocity?);
+    Ok((ParticleGroup { material, count, radius, arrangement, velocity }, place))
+}
+
+/// The number of particles, which has to fit the arrangement.
+fn fitting_count(
+    table: &TableReader<'_>,
+    arrangement: &Arrangement,
+    given: Option<i64>,
+) -> Result<usize, Reported> {
+    let given = given.map(|count| usize::try_from(count).unwrap_or(usize::MAX));
+    let listed = |kind: &str, positions: usize| match given {
+        None => Ok(positions),
+        Some(_) => {
+            let expected = format!("no `count`: the {kind} holds {positions} particles");
+            Err(table.refuse("count", Problem::rule("the number of particles is given twice", expected)))
+        }
+    };
+    match arrangement {
+        Arrangement::File { grains, .. } => listed("file", grains.len()),
+        Arrangement::List(positions) => listed("list", positions.len()),
+        Arrangement::Lattice(lattice) => {
+            let sites = lattice.site_count();
+            match given {
+                Some(count) if count > sites => {
+                    let found = format!("{count} particles do not fit on {sites} sites of the lattice");
+                    Err(table.refuse("count", Problem::rule(found, "count <= number of sites")))
+                }
+                given => Ok(given.unwrap_or(sites)),
+            }
+        }
+        Arrangement::Random(_) => given.ok_or_else(|| {
+            let expected = "the number of particles of a random arrangement".to_owned();
+            table.refuse("count", Problem::MissingKey { key: "count".to_owned(), expected })
+        }),
+    }
+}
+
+/// The radii, which stand either here or in the file of the arrangement.
+fn fitting_radius(
+    table: &TableReader<'_>,
+    arrangement: &Arrangement,
+    radius: Option<RadiusDistribution>,
+) -> Result<Option<RadiusDistribution>, Reported> {
+    let in_file = match arrangement {
+        Arrangement::File { grains, .. } => grains.iter().all(|grain| grain.radius.is_some()),
+        _ => false,
+    };
+    match (&radius, in_file) {
+        (Some(_), true) => {
+            let found = "the file of the arrangement has a column `radius`";
+            Err(table.refuse("radius", Problem::rule(found, "no [particles.radius]")))
+        }
+        (None, false) => {
+            let expected = "a table [particles.radius]".to_owned();
+            Err(table.refuse("radius", Problem::MissingKey { key: "radius".to_owned(), expected }))
+        }
+        _ => Ok(radius),
+    }
+}
+
+/// Solid fraction of the densest packing of equal spheres, π/√18 [1].
+const DENSEST: f64 = 0.7405;
+
+/// What cannot fit into a block even if all particles are as small as they may be.
+fn fitting_block(table: &TableReader<'_>, block: &Extent, count: usize, radius: f64) -> Result<(), Reported> {
+    let size = block.size();
+    let shortest = size.x.min(size.y).min(size.z);
+    if 2.0 * radius > shortest {
+        let found = format!("the block is {shortest} m thin");
+        let expected = format!("room for particles of radius {radius} m");
+        return Err(table.refuse("arrangement", Problem::rule(found, expected)));
+    }
+    #[allow(clippy::cast_precision_loss)] // a share needs no more than a few digits
+    let share = count as f64 * 4.0 / 3.0 * PI * radius.powi(3) / block.volume();
+    if share > DENSEST {
+        let found = format!("{count} particles fill {:.0} % of the block or more", 100.0 * share);
+        return Err(table.refuse("count", Problem::rule(found, "less than the densest packing, 74 %")));
+    }
+    Ok(())
+}
+
+/// Reads `[particles.velocity]`.
+fn read_velocity(
+    mut table: TableReader<'_>,
+    arrangement: Option<&Arrangement>,
+) -> Result<VelocityPlan, Reported> {
+    let mean = table.optional("mean", Vector::of(Dimension::VELOCITY));
+    let standard_deviation =
+        table.optional("standard_deviation", QuantityRule::of(Dimension::VELOCITY).at_least(0.0));
+    let spin = table.or("spin", Vector::of(Dimension::RATE), [0.0; 3]);
+    let in_file = match arrangement {
+        Some(Arrangement::File { grains, .. }) => grains.iter().all(|grain| grain.velocity.is_some()),
+        _ => false,
+    };
+    let refused = |key: &str| {
+        let found = "the file of the arrangement has the columns vx, vy, vz";
+        table.refuse(key, Problem::rule(found, format!("no `{key}`")))
+    };
+    let mean = match mean {
+        Ok(Some(_)) if in_file => Err(refused("mean")),
+        mean => mean,
+    };
+    let standard_deviation = match standard_deviation {
+        Ok(Some(_)) if in_file => Err(refused("standard_deviation")),
+        standard_deviation => standard_deviation,
+    };
+    table.finish();
+    Ok(VelocityPlan {
+        mean: mean?.unwrap_or_default().into(),
+        standard_deviation: standard_deviation?.unwrap_or(0.0),
+        spin: spin?.into(),
+    })
+}

@@ -1,0 +1,212 @@
+//! Stages: what changes when, and until when.
+
+use super::axis::{Axis, BoxFace, Side};
+use super::contacts::Contact;
+use super::controls::{WallControl, read_control};
+use super::domain::Background;
+use super::switches::{Switch, read_switches};
+use super::time::{TimeStep, read_time};
+use super::until::{StopRules, read_until};
+use super::walls::Wall;
+use crate::context::Reported;
+use crate::problem::Problem;
+use crate::reader::TableReader;
+use crate::shape::Text;
+use pulvis_math::Vector3;
+
+/// A stage of a run, with everything that holds while it lasts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    /// Its name, which no other stage has.
+    pub name: String,
+    /// When it ends; at least one rule is given.
+    pub until: StopRules,
+    /// The walls whose control changes at its start, by index; other walls go on as before.
+    pub controls: Vec<(usize, WallControl)>,
+    /// One contact for every pair of materials that can meet, in the order of [`super::Scenario::contacts`].
+    pub contacts: Vec<Contact>,
+    /// Drag by a background.
+    pub background: Background,
+    /// Acceleration of gravity [m/s^2].
+    pub gravity: Vector3,
+    /// How long a time step is.
+    pub time: TimeStep,
+}
+
+/// A stage as it stands in the file, before its switches have been applied.
+pub(super) struct PlannedStage {
+    pub(super) name: String,
+    pub(super) until: StopRules,
+    pub(super) controls: Vec<(usize, WallControl)>,
+    pub(super) switches: Vec<Switch>,
+    pub(super) time: TimeStep,
+}
+
+/// Reads `[[stages]]`; `time` holds before the first one.
+pub(super) fn read_stages(
+    root: &mut TableReader<'_>,
+    walls: &[Wall],
+    time: TimeStep,
+) -> Result<Vec<PlannedStage>, Reported> {
+    let tables = root.tables("stages")?;
+    if tables.is_empty() {
+        let expected = "one or more tables [[stages]]".to_owned();
+        let problem = Problem::MissingKey { key: "stages".to_owned(), expected };
+        return Err(root.refuse("stages", problem));
+    }
+    let mut stages: Vec<PlannedStage> = Vec::new();
+    let mut now = Now { controls: vec![WallControl::Fixed; walls.len()], time };
+    let mut failure = None;
+    for table in tables {
+        match read_stage(table, walls, &mut now, &stages) {
+            Ok(stage) => stages.push(stage),
+            Err(reported) => failure = Some(reported),
+        }
+    }
+    failure.map_or(Ok(stages), Err)
+}
+
+/// What the stages before have left behind.
+struct Now {
+    controls: Vec<WallControl>,
+    time: TimeStep,
+}
+
+fn read_stage(
+    mut table: TableReader<'_>,
+    walls: &[Wall],
+    now: &mut Now,
+    before: &[PlannedStage],
+) -> Result<PlannedStage, Reported> {
+    let name = table.required("name", Text).and_then(|name| {
+        if before.iter().any(|stage| stage.name == name) {
+            let found = format!("two stages are called \"{name}\"");
+            return Err(table.refuse("name", Problem::rule(found, "another name for each stage")));
+        }
+        Ok(name)
+    });
+    let until = read_until(&mut table);
+    let controls = read_controls(&mut table, walls, now);
+    let switches = read_switches(&mut table);
+    let time = read_time(&mut table, now.time);
+    if let Ok(time) = time {
+        now.time = time;
+    }
+    let until = match (until, &controls) {
+        (Ok(until), Ok(controls)) => complete(&table, until, controls, walls, now),
+        (Err(reported), _) | (_, &Err(reported)) => Err(reported),
+    };
+    table.finish();
+    Ok(PlannedStage { name: name?, until: until?, controls: controls?, switches: switches?, time: time? })
+}
+
+/// Reads `[stages.walls.NAME]`.
+fn read_controls(
+    stage: &mut TableReader<'_>,
+    walls: &[Wall],
+    now: &mut Now,
+) -> Result<Vec<(usize, WallControl)>, Reported> {
+    let names: Vec<&str> = walls.iter().map(|wall| wall.name.as_str()).collect();
+    let mut controls = Vec::new();
+    let mut failure = None;
+    for (name, table) in stage.named_tables("walls")? {
+        let found = walls.iter().zip(&mut now.controls).enumerate().find(|(_, (wall, _))| wall.name == name);
+        let read = match found {
+            None if names.is_empty() => {
+                let found = format!("there is no wall {name}, nor any other");
+                Err(table.refuse("", Problem::rule(found, "a [box] or [walls] to control")))
+            }
+            None => Err(table.refuse("", Problem::unknown_choice(&name, &names))),
+            Some((_, (_, WallControl::Removed))) => {
+                let found = format!("the wall {name} has been removed by an earlier stage");
+                Err(table.refuse("", Problem::rule(found, "a wall that is still there")))
+            }
+            Some((index, (wall, control))) => read_control(table, wall).map(|new| {
+                *control = new;
+                controls.push((index, new));
+            }),
+        };
+        failure = read.err().or(failure);
+    }
+    controls.sort_by_key(|(index, _)| *index);
+    failure.map_or(Ok(controls), Err)
+}
+
+/// The stop rules, which must be able to end the stage. Where none is given, a cosine motion that begins
+/// with the stage ends it.
+fn complete(
+    table: &TableReader<'_>,
+    mut until: StopRules,
+    controls: &[(usize, WallControl)],
+    walls: &[Wall],
+    now: &Now,
+) -> Result<StopRules, Reported> {
+    if until.is_empty() {
+        let durations = controls.iter().filter_map(|(_, control)| match control {
+            WallControl::Cosine(motion) => Some(motion.duration()),
+            _ => None,
+        });
+        let longest = durations.reduce(f64::max);
+        until.time = Some(longest.ok_or_else(|| {
+            let found = "the stage has no end";
+            let expected =
+                "a rule in [stages.until], for example time = \"1 ms\", or a wall that moves by cosine";
+            table.refuse("until", Problem::rule(found, expected))
+        })?);
+        return Ok(until);
+    }
+    let axes = until.strain.map(|rule| ("strain", rule.axis)).into_iter();
+    for (rule, axis) in axes.chain(until.stress.map(|rule| ("stress", rule.axis))) {
+        facing(axis, walls, now).map_err(|missing| {
+            let found = format!("`{rule}` needs both walls of the box along {}", axis.name());
+            let expected = format!("the wall {missing}, which is not there in this stage");
+            table.refuse("until", Problem::rule(found, expected))
+        })?;
+    }
+    reaches_strain(table, &until, walls, now)?;
+    Ok(until)
+}
+
+/// The controls of the two box walls of an axis, or the name of one that is not there.
+fn facing(axis: Axis, walls: &[Wall], now: &Now) -> Result<[WallControl; 2], &'static str> {
+    let control = |side| {
+        let face = BoxFace { axis, side };
+        let found = walls.iter().zip(&now.controls).find(|(wall, _)| wall.face == Some(face));
+        match found {
+            Some((_, WallControl::Removed)) | None => Err(face.name()),
+            Some((_, control)) => Ok(*control),
+        }
+    };
+    Ok([control(Side::Low)?, control(Side::High)?])
+}
+
+/// Refuses a strain that nothing but the walls' own motion could reach, and that this motion never does.
+fn reaches_strain(
+    table: &TableReader<'_>,
+    until: &StopRules,
+    walls: &[Wall],
+    now: &Now,
+) -> Result<(), Reported> {
+    let only = StopRules { strain: until.strain, ..StopRules::default() };
+    let Some(rule) = until.strain.filter(|_| *until == only) else { return Ok(()) };
+    let Ok([low, high]) = facing(rule.axis, walls, now) else { return Ok(()) };
+    let rate = |control: WallControl| match control {
+        WallControl::Fixed => Some(0.0),
+        WallControl::Velocity(velocity) => Some(velocity[rule.axis.index()]),
+        _ => None,
+    };
+    if let (Some(low), Some(high)) = (rate(low), rate(high))
+        && (high - low) * rule.value <= 0.0
+    {
+        let found = format!(
+            "the strain never reaches {}: along {} the box grows by {} m/s",
+            rule.value,
+            rule.axis.name(),
+            high - low
+        );
+        return Err(
+            table.refuse("until", Problem::rule(found, "walls that move towards it, or another rule"))
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,125 @@
+//! When a stage ends.
+
+use super::axis::{Axis, AxisShape};
+use crate::context::Reported;
+use crate::problem::Problem;
+use crate::quantity::QuantityRule;
+use crate::reader::TableReader;
+use crate::shape::Choice;
+use pulvis_math::Dimension;
+
+/// A stage ends as soon as any of these holds; at least one is given.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StopRules {
+    /// Duration of the stage [s].
+    pub time: Option<f64>,
+    /// Kinetic over elastic energy falls to this [1], not before [`Self::minimum_time`].
+    pub kinetic_to_elastic: Option<f64>,
+    /// Time before which the energies are not looked at [s].
+    pub minimum_time: f64,
+    /// The box has been strained so far.
+    pub strain: Option<StrainRule>,
+    /// The stress on a pair of walls has been reached.
+    pub stress: Option<StressRule>,
+}
+
+impl StopRules {
+    /// Whether no rule is given.
+    pub fn is_empty(&self) -> bool {
+        *self == Self { minimum_time: self.minimum_time, ..Self::default() }
+    }
+}
+
+/// (L − L0)/L0 of the distance L of the two box walls reaches a value; L0 is L at the start of the stage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrainRule {
+    /// Direction of L.
+    pub axis: Axis,
+    /// The strain [1]: positive for extension, negative for compression, never zero.
+    pub value: f64,
+}
+
+/// The mean compressive stress of the two box walls of an axis crosses a value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StressRule {
+    /// Direction of the normals of the walls.
+    pub axis: Axis,
+    /// The stress, compression positive [Pa].
+    pub value: f64,
+    /// From which side.
+    pub crosses: Crossing,
+}
+
+/// The side from which a value is reached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Crossing {
+    /// From below.
+    Upwards,
+    /// From above.
+    Downwards,
+}
+
+impl Crossing {
+    /// The name in a scenario.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Upwards => "upwards",
+            Self::Downwards => "downwards",
+        }
+    }
+}
+
+/// Reads `[stages.until]`; an absent table is an empty set of rules.
+pub(super) fn read_until(stage: &mut TableReader<'_>) -> Result<StopRules, Reported> {
+    let Some(mut table) = stage.optional_table("until")? else { return Ok(StopRules::default()) };
+    let time = table.optional("time", QuantityRule::of(Dimension::TIME).above(0.0));
+    let kinetic_to_elastic =
+        table.optional("kinetic_to_elastic", QuantityRule::of(Dimension::NONE).above(0.0));
+    let minimum_time = table.optional("minimum_time", QuantityRule::of(Dimension::TIME).at_least(0.0));
+    let strain = table.optional_table("strain").and_then(|rule| rule.map(read_strain).transpose());
+    let stress = table.optional_table("stress").and_then(|rule| rule.map(read_stress).transpose());
+    let minimum_time = match (minimum_time, &kinetic_to_elastic, &time) {
+        (Ok(Some(_)), Ok(None), _) => {
+            let problem =
+                Problem::rule("there is no `kinetic_to_elastic` that it delays", "both or none of them");
+            Err(table.refuse("minimum_time", problem))
+        }
+        (Ok(Some(minimum)), Ok(Some(_)), Ok(Some(time))) if minimum >= *time => {
+            let found =
+                format!("{minimum} s is not shorter than time = {time} s, which ends the stage first");
+            Err(table.refuse("minimum_time", Problem::rule(found, "minimum_time < time")))
+        }
+        (minimum_time, ..) => minimum_time,
+    };
+    table.finish();
+    Ok(StopRules {
+        time: time?,
+        kinetic_to_elastic: kinetic_to_elastic?,
+        minimum_time: minimum_time?.unwrap_or(0.0),
+        strain: strain?,
+        stress: stress?,
+    })
+}
+
+fn read_strain(mut table: TableReader<'_>) -> Result<StrainRule, Reported> {
+    let axis = table.required("axis", AxisShape);
+    // At -1 the walls touch.
+    let value = table.required("value", QuantityRule::of(Dimension::NONE).above(-1.0)).and_then(|value| {
+        if value == 0.0 {
+            let expected = "a strain that is positive (extension) or negative (compression)";
+            return Err(table.refuse("value", Problem::rule("a stage begins at strain 0", expected)));
+        }
+        Ok(value)
+    });
+    table.finish();
+    Ok(StrainRule { axis: axis?, value: value? })
+}
+
+fn read_stress(mut table: TableReader<'_>) -> Result<StressRule, Reported> {
+    let axis = table.required("axis", AxisShape);
+    let value = table.required("value", Dimension::PRESSURE);
+    let choices = [("upwards", Crossing::Upwards), ("downwards", Crossing::Downwards)];
+    let crosses = table.required("crosses", Choice(&choices));
+    table.finish();
+    Ok(StressRule { axis: axis?, value: value?, crosses: crosses? })
+}

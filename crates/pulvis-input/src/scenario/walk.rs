@@ -1,0 +1,178 @@
+//! The walk over a scenario file, first as it stands, then once more for every stage that switches.
+
+use super::contacts::{Contact, MaterialUse, read_contacts};
+use super::domain::{Background, read_background, read_domain, read_gravity};
+use super::materials::{Material, read_materials};
+use super::output::read_output;
+use super::particles::{PlacedGroup, read_particles};
+use super::placement::check_placement;
+use super::stages::{PlannedStage, Stage, read_stages};
+use super::switches::switched;
+use super::time::{TimeStep, read_time};
+use super::walls::{Walls, read_walls};
+use super::{Scenario, ScenarioSource};
+use crate::context::Reported;
+use crate::document::Document;
+use crate::error::InputErrors;
+use crate::reader::TableReader;
+use crate::shape::{Integer, Text};
+use pulvis_math::Vector3;
+use std::path::Path;
+
+/// The keys of a scenario, in the order of the documentation.
+const KEYS: [&str; 13] = [
+    "title",
+    "seed",
+    "gravity",
+    "domain",
+    "materials",
+    "contacts",
+    "background",
+    "particles",
+    "box",
+    "walls",
+    "time",
+    "stages",
+    "output",
+];
+
+/// Reads and checks a scenario.
+pub(super) fn scenario(document: &Document, path: Option<&Path>) -> Result<Scenario, InputErrors> {
+    let file = path.unwrap_or(Path::new(document.name()));
+    let folder = path.and_then(Path::parent).unwrap_or(Path::new(""));
+    let (mut scenario, planned, used) = document.read(|root| walk(root, file, folder))?;
+    scenario.source = ScenarioSource {
+        name: document.name().to_owned(),
+        path: path.map(Path::to_path_buf),
+        text: document.text().to_owned(),
+    };
+    scenario.stages = resolve(document, &scenario, &used, planned)?;
+    Ok(scenario)
+}
+
+/// A scenario without stages, its stages before their switches are applied, and its materials' use.
+type Walked = (Scenario, Vec<PlannedStage>, MaterialUse);
+
+fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked, Reported> {
+    // Fixed order of known keys, which is the order in which help texts list them.
+    for key in KEYS {
+        root.value(key);
+    }
+    let title = root.optional("title", Text);
+    let seed = root.or("seed", Integer::at_least(0), 1);
+    let domain = read_domain(&mut root);
+    let time = read_time(&mut root, TimeStep::default());
+    let output = read_output(&mut root, file);
+    // Everything else speaks of materials.
+    let materials = read_materials(&mut root);
+    let bodies = materials.as_ref().map_err(|reported| *reported).and_then(|materials| {
+        let known = domain.as_ref().map_or(None, Option::as_ref);
+        let walls = read_walls(&mut root, materials, known);
+        let groups = read_particles(&mut root, materials, folder);
+        let (walls, groups) = (walls?, groups?);
+        check_placement(&root, &groups, &walls.walls, known)?;
+        Ok((walls, groups))
+    });
+    let stages = match (&bodies, &time) {
+        (Ok((walls, _)), Ok(time)) => read_stages(&mut root, &walls.walls, *time),
+        (&Err(reported), _) | (_, &Err(reported)) => Err(reported),
+    };
+    let used =
+        bodies.as_ref().map(|(walls, groups)| material_use(walls, groups)).map_err(|reported| *reported);
+    let changing = match (&materials, &used) {
+        (Ok(materials), Ok(used)) => Changing::read(&mut root, materials, used),
+        (&Err(reported), _) | (_, &Err(reported)) => Err(reported),
+    };
+    root.finish();
+    let (walls, groups) = bodies?;
+    let Changing { contacts, background, gravity } = changing?;
+    let scenario = Scenario {
+        source: ScenarioSource { name: String::new(), path: None, text: String::new() },
+        title: title?,
+        seed: seed?.unsigned_abs(),
+        gravity,
+        domain: domain?,
+        materials: materials?,
+        contacts,
+        background,
+        particles: groups.into_iter().map(|(group, _)| group).collect(),
+        enclosure: walls.enclosure,
+        walls: walls.walls,
+        time: time?,
+        stages: Vec::new(),
+        output: output?,
+    };
+    Ok((scenario, stages?, used?))
+}
+
+/// The materials of particles and walls, each once.
+fn material_use(walls: &Walls, groups: &[PlacedGroup]) -> MaterialUse {
+    let unique = |mut indices: Vec<usize>| {
+        indices.sort_unstable();
+        indices.dedup();
+        indices
+    };
+    MaterialUse {
+        particles: unique(groups.iter().map(|(group, _)| group.material).collect()),
+        walls: unique(walls.walls.iter().map(|wall| wall.material).collect()),
+    }
+}
+
+/// What stages can switch.
+struct Changing {
+    contacts: Vec<Contact>,
+    background: Background,
+    gravity: Vector3,
+}
+
+impl Changing {
+    fn read(
+        root: &mut TableReader<'_>,
+        materials: &[Material],
+        used: &MaterialUse,
+    ) -> Result<Self, Reported> {
+        let gravity = read_gravity(root);
+        let background = read_background(root);
+        let contacts = read_contacts(root, materials, used)?;
+        Ok(Self { contacts, background: background?, gravity: gravity? })
+    }
+}
+
+/// The stages with everything that holds in them.
+fn resolve(
+    document: &Document,
+    scenario: &Scenario,
+    used: &MaterialUse,
+    planned: Vec<PlannedStage>,
+) -> Result<Vec<Stage>, InputErrors> {
+    let mut document = document.clone();
+    let mut stages: Vec<Stage> = Vec::with_capacity(planned.len());
+    for stage in planned {
+        let PlannedStage { name, until, controls, switches, time } = stage;
+        let changing = if switches.is_empty() {
+            let before = stages.last();
+            Changing {
+                contacts: before.map_or(&scenario.contacts, |stage| &stage.contacts).clone(),
+                background: before.map_or(scenario.background, |stage| stage.background),
+                gravity: before.map_or(scenario.gravity, |stage| stage.gravity),
+            }
+        } else {
+            document = switched(&document, &switches)?;
+            let read = document.read(|mut root| {
+                let changing = Changing::read(&mut root, &scenario.materials, used);
+                // The rest of the file has been checked in the first walk.
+                for key in root.keys() {
+                    root.value(key);
+                }
+                root.finish();
+                changing
+            });
+            read.map_err(|errors| {
+                errors.with_help(&format!("this is what [stages.set] of stage \"{name}\" leads to"))
+            })?
+        };
+        let Changing { contacts, background, gravity } = changing;
+        stages.push(Stage { name, until, controls, contacts, background, gravity, time });
+    }
+    Ok(stages)
+}
