@@ -130,7 +130,7 @@ impl Law for Conventions {
                     Choice { name: "project", meaning: "projected only (LIGGGHTS)" },
                     Choice {
                         name: "twist",
-                        meaning: "as rescale, and turned with the mean spin about the normal (YADE)",
+                        meaning: "turned with the normal, and about it with the mean spin (YADE)",
                     },
                     Choice {
                         name: "rate",

@@ -141,10 +141,17 @@ impl<'a, R: Real> Resistance<'a, R> {
         let (motion, normal) = (self.motion, self.motion.normal);
         let rotation = self.conventions.spring_rotation;
         let before = *spring;
-        let turned = before.dot(motion.velocity_mid) * motion.inverse_distance * self.elapsed;
+        let part = motion.inverse_distance * self.elapsed;
+        let turned = self.sideways_mid * part;
+        let along = before.dot(motion.velocity_mid) * part;
         let twist = R::splat(0.5) * (motion.spin_i_mid + motion.spin_j_mid).dot(normal) * self.elapsed;
-        let carried = carried_along(rotation, before, normal, turned, twist);
+        let carried = carried_along(rotation, before, normal, along, turned, twist);
         *spring = carried;
+        let step = match rotation {
+            // The displacement was made, on average, half a twist ago.
+            SpringRotation::Twist => step + normal.cross(step) * (R::splat(0.5) * twist),
+            _ => step,
+        };
         let mut answer = slider.respond(
             &SpringMotion {
                 velocity: velocity.keep_where(self.touching),

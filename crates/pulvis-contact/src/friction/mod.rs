@@ -38,35 +38,46 @@ pub struct SpringMotion<T, R> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SpringRotation {
     /// Projected into the tangent plane and stretched back to its old length (Luding 2008, eq. 17).
+    /// The length is kept, the direction drifts at first order in the step: projection shortens only
+    /// the part along the way that the normal turns, stretching lengthens both.
     #[default]
     Rescale,
     /// Projected into the tangent plane only (LIGGGHTS).
     Project,
-    /// As `Rescale`, and turned about the line of centres with the mean spin of the bodies (YADE).
+    /// Turned with the line of centres, and about it with the mean spin of the bodies (YADE): the
+    /// spring of a stuck pair that turns as one body turns with it, to second order in the step.
     Twist,
     /// Only the part along the line of centres that the present step brings is removed (MercuryDPM).
     Rate,
 }
 
-/// A spring before the step, carried along by the turning contact.
+/// A spring before the step, carried along by the turning contact: `turned` is the change of the
+/// normal in the step, `turn_rate_normal` the normal part that the rate form of the spring loses [m],
+/// `mean_twist` the mean turn of the bodies about the normal.
 #[inline(always)]
 pub(crate) fn carried_along<R: Real>(
     rotation: SpringRotation,
     spring: Vector3<R>,
     normal: Vector3<R>,
     turn_rate_normal: R,
+    turned: Vector3<R>,
     mean_twist: R,
 ) -> Vector3<R> {
-    let rescaled = |spring: Vector3<R>| {
-        let projected = spring.tangential_to(normal);
+    // Back in the tangent plane and to the length that the spring had, whatever moved it.
+    let restored = |moved: Vector3<R>| {
+        let projected = moved.tangential_to(normal);
         let remaining = projected.norm_squared();
         let stretched = (spring.norm_squared() / remaining).sqrt();
         projected * R::select(remaining.gt(R::zero()), stretched, R::one())
     };
     match rotation {
-        SpringRotation::Rescale => rescaled(spring),
+        SpringRotation::Rescale => restored(spring),
         SpringRotation::Project => spring.tangential_to(normal),
-        SpringRotation::Twist => rescaled(spring + normal.cross(spring) * mean_twist),
+        SpringRotation::Twist => {
+            // Projection loses half the square of the turn along the way of the normal.
+            let lost = turned * (R::splat(0.5) * turned.dot(spring));
+            restored(spring + lost + normal.cross(spring) * mean_twist)
+        }
         SpringRotation::Rate => spring - normal * turn_rate_normal,
     }
 }

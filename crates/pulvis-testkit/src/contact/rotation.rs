@@ -25,7 +25,7 @@ pub struct RigidRotation {
 /// Loads the springs of two unequal spheres by a small shear, roll and twist at the overlap `overlap`
 /// [m], then turns the pair as one body by `angle` [rad] about `axis` in `steps` steps.
 ///
-/// The line of centres lies along z. The springs take up 1 % of the overlap each, so that any
+/// The line of centres lies along z. The springs take up about half of the overlap each, so that strong
 /// friction holds them.
 pub fn rigid_rotation(
     model: &ContactModel,
@@ -45,7 +45,7 @@ pub fn rigid_rotation(
         spin,
         spin_mid: spin,
     };
-    let load = 0.01 * overlap;
+    let load = 0.5 * overlap;
     let time = 1.0;
     let shear = at(
         z * distance,
