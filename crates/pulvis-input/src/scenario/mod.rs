@@ -44,6 +44,7 @@ mod particles;
 mod placement;
 mod points;
 mod radius;
+mod resolved;
 
 mod stages;
 mod switches;
@@ -52,6 +53,7 @@ mod until;
 mod walk;
 mod walls;
 
+pub use crate::contact::NamedLaw;
 pub use arrangement::{Arrangement, Grain, Lattice};
 pub use axis::{Axis, BoxFace, Side};
 pub use contacts::Contact;

@@ -179,7 +179,11 @@ fn read_wall(
     let material = read_material_name(&mut table, "material", materials);
     let point = table.required("point", Vector::of(Dimension::LENGTH));
     let normal = table.required("normal", Vector::of(Dimension::NONE)).and_then(|normal| {
-        let direction = Vector3::from(normal).unit();
+        let normal = Vector3::from(normal);
+        // A vector that is of unit length already stays as it is, so that a resolved scenario reads back
+        // to the same bits.
+        let is_unit = (normal.norm_squared() - 1.0).abs() < 1e-14;
+        let direction = if is_unit { Some(normal) } else { normal.unit() };
         direction.ok_or_else(|| {
             table.refuse("normal", Problem::rule("the vector has no direction", "a vector that is not zero"))
         })

@@ -1,9 +1,6 @@
 //! Loading files, showing mistakes, and replacing values.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-mod schema;
-
+use crate::schema;
 use pulvis_input::*;
 use std::path::Path;
 

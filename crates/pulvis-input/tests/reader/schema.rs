@@ -1,6 +1,4 @@
-//! A small schema that uses every kind of value, until the scenarios themselves are read here.
-
-#![allow(dead_code)] // each test file uses a part
+//! A small schema that uses every kind of value.
 
 use pulvis_input::*;
 use std::path::Path;

@@ -1,17 +1,14 @@
-//! Every file in `tests/bad` ends with the messages that it must cause.
+//! Every file in `tests/reader/bad` ends with the messages that it must cause.
 //!
 //! A line `#^ 3:10: contact.normal.kp: ...` is the first line of one message without `error: <file>:`;
 //! several mistakes are several such lines, in the order of the file. Changing a message shows up in review.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-mod schema;
-
+use crate::schema;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 fn files(folder: &str) -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(folder);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reader").join(folder);
     let mut paths: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.sort();
     paths

@@ -1,0 +1,148 @@
+//! Particles and walls of the resolved scenario.
+
+use super::writer::{Writer, key, list, number, quantity, text, vector};
+use crate::scenario::{
+    Arrangement, BoxFace, Extent, ParticleGroup, RadiusDistribution, Scenario, VelocityPlan, Wall,
+};
+use pulvis_math::Dimension;
+
+impl Scenario {
+    pub(super) fn write_particles(&self, writer: &mut Writer) {
+        for group in &self.particles {
+            writer.item("particles");
+            writer.key("material", self.material_text(group.material));
+            if matches!(group.arrangement, Arrangement::Lattice(_) | Arrangement::Random(_)) {
+                writer.key("count", group.count.to_string());
+            }
+            if let Some(radius) = &group.radius {
+                writer.table("particles.radius");
+                write_radius(writer, radius);
+            }
+            writer.table("particles.arrangement");
+            write_arrangement(writer, &group.arrangement);
+            writer.table("particles.velocity");
+            write_velocity(writer, &group.velocity, group);
+        }
+    }
+
+    pub(super) fn write_walls(&self, writer: &mut Writer) {
+        if let Some(extent) = &self.enclosure {
+            self.write_box(writer, extent);
+        }
+        for wall in self.walls.iter().filter(|wall| wall.face.is_none()) {
+            writer.table(&format!("walls.{}", key(&wall.name)));
+            writer.key("material", self.material_text(wall.material));
+            writer.key("point", vector(wall.point, Dimension::LENGTH));
+            writer.key("normal", vector(wall.normal, Dimension::NONE));
+            if let Some(area) = wall.area {
+                writer.key("area", quantity(area, Dimension::LENGTH * Dimension::LENGTH));
+            }
+        }
+    }
+
+    fn write_box(&self, writer: &mut Writer, extent: &Extent) {
+        let faces: Vec<&Wall> = self.walls.iter().filter(|wall| wall.face.is_some()).collect();
+        let periodic = self.domain.map_or([false; 3], |domain| domain.periodic);
+        let is_open = |face: &BoxFace| {
+            !periodic[face.axis.index()] && faces.iter().all(|wall| wall.face.as_ref() != Some(face))
+        };
+        // A box whose faces are all open has a material all the same; which one means nothing.
+        let common = faces.first().map_or(0, |wall| wall.material);
+        writer.table("box");
+        writer.key("material", self.material_text(common));
+        write_extent(writer, extent);
+        writer.key(
+            "open",
+            list(BoxFace::ALL.iter().filter(|face| is_open(face)).map(|face| text(face.name()))),
+        );
+        let special: Vec<_> = faces.iter().filter(|wall| wall.material != common).collect();
+        if !special.is_empty() {
+            writer.table("box.materials");
+        }
+        for wall in special {
+            writer.key(&wall.name, self.material_text(wall.material));
+        }
+    }
+}
+
+fn write_extent(writer: &mut Writer, extent: &Extent) {
+    writer.key("lower", vector(extent.lower, Dimension::LENGTH));
+    writer.key("upper", vector(extent.upper, Dimension::LENGTH));
+}
+
+fn write_radius(writer: &mut Writer, radius: &RadiusDistribution) {
+    let length = |value: f64| quantity(value, Dimension::LENGTH);
+    let mut keys = |name: &str, pairs: &[(&str, String)]| {
+        writer.key("distribution", text(name));
+        for (key, value) in pairs {
+            writer.key(key, value);
+        }
+    };
+    match radius {
+        RadiusDistribution::Fixed { value } => keys("fixed", &[("value", length(*value))]),
+        RadiusDistribution::Uniform { minimum, maximum } => {
+            keys("uniform", &[("minimum", length(*minimum)), ("maximum", length(*maximum))]);
+        }
+        RadiusDistribution::Normal { mean, standard_deviation, minimum, maximum } => keys(
+            "normal",
+            &[
+                ("mean", length(*mean)),
+                ("standard_deviation", length(*standard_deviation)),
+                ("minimum", length(*minimum)),
+                ("maximum", length(*maximum)),
+            ],
+        ),
+        RadiusDistribution::LogNormal { median, sigma, minimum, maximum } => keys(
+            "log-normal",
+            &[
+                ("median", length(*median)),
+                ("sigma", number(*sigma)),
+                ("minimum", length(*minimum)),
+                ("maximum", length(*maximum)),
+            ],
+        ),
+        RadiusDistribution::List { values, weights } => keys(
+            "list",
+            &[
+                ("values", list(values.iter().map(|value| length(*value)))),
+                ("weights", list(weights.iter().map(|weight| number(*weight)))),
+            ],
+        ),
+    }
+}
+
+fn write_arrangement(writer: &mut Writer, arrangement: &Arrangement) {
+    match arrangement {
+        Arrangement::Lattice(lattice) => {
+            writer.key("kind", text("lattice"));
+            writer.key("lower", vector(lattice.lower, Dimension::LENGTH));
+            writer.key("counts", list(lattice.counts.map(|count| count.to_string())));
+            writer.key("spacing", quantity(lattice.spacing, Dimension::LENGTH));
+            writer.key("jitter", number(lattice.jitter));
+        }
+        Arrangement::Random(block) => {
+            writer.key("kind", text("random"));
+            write_extent(writer, block);
+        }
+        Arrangement::File { path, .. } => {
+            writer.key("kind", text("file"));
+            writer.key("path", text(&path.to_string_lossy()));
+        }
+        Arrangement::List(positions) => {
+            writer.key("kind", text("list"));
+            writer.key("positions", list(positions.iter().map(|at| vector(*at, Dimension::LENGTH))));
+        }
+    }
+}
+
+fn write_velocity(writer: &mut Writer, velocity: &VelocityPlan, group: &ParticleGroup) {
+    let in_file = match &group.arrangement {
+        Arrangement::File { grains, .. } => grains.iter().all(|grain| grain.velocity.is_some()),
+        _ => false,
+    };
+    if !in_file {
+        writer.key("mean", vector(velocity.mean, Dimension::VELOCITY));
+        writer.key("standard_deviation", quantity(velocity.standard_deviation, Dimension::VELOCITY));
+    }
+    writer.key("spin", vector(velocity.spin, Dimension::RATE));
+}

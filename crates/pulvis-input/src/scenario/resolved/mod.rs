@@ -1,0 +1,135 @@
+//! The resolved scenario, `run.toml`: everything that a run used, with no default left unsaid.
+
+mod bodies;
+mod stages;
+mod writer;
+
+use super::output::{Interval, OutputPlan, Snapshots};
+use super::time::TimeStep;
+use super::{Axis, Contact, Material, NamedLaw, Scenario};
+use pulvis_contact::catalogue::{Kind, Value};
+use pulvis_math::{Dimension, Vector3};
+use writer::{Writer, key, list, number, quantity, text, vector};
+
+impl Scenario {
+    /// The scenario as TOML in SI that reads back to an equal one, with a header that says where it
+    /// comes from. `version` is that of the program.
+    pub fn to_resolved_toml(&self, version: &str) -> String {
+        let mut writer = Writer::default();
+        writer.comment(&format!("Pulvis {version}"));
+        writer.comment(&format!("resolved from {} with seed {}", self.source.name, self.seed));
+        writer.comment("in SI, defaults written out; `pulvis run` of this file repeats the run");
+        if let Some(title) = &self.title {
+            writer.key("title", text(title));
+        }
+        writer.key("seed", self.seed.to_string());
+        writer.key("gravity", gravity(self.gravity));
+        if let Some(domain) = &self.domain {
+            writer.table("domain");
+            writer.key("lower", vector(domain.extent.lower, Dimension::LENGTH));
+            writer.key("upper", vector(domain.extent.upper, Dimension::LENGTH));
+            let periodic = Axis::ALL.into_iter().filter(|axis| domain.periodic[axis.index()]);
+            writer.key("periodic", list(periodic.map(|axis| text(axis.name()))));
+        }
+        self.write_materials(&mut writer);
+        for contact in &self.contacts {
+            for law in &contact.laws {
+                writer.table(&key_of_law(contact, law, &self.materials));
+                write_law(&mut writer, law);
+            }
+        }
+        writer.table("background");
+        writer.key("drag", quantity(self.background.drag, Dimension::DASHPOT));
+        writer.key("rotational_drag", quantity(self.background.rotational_drag, Dimension::DASHPOT));
+        self.write_particles(&mut writer);
+        self.write_walls(&mut writer);
+        writer.table("time");
+        write_time(&mut writer, self.time);
+        write_output(&mut writer, &self.output);
+        self.write_stages(&mut writer);
+        writer.finish()
+    }
+
+    fn write_materials(&self, writer: &mut Writer) {
+        for material in &self.materials {
+            writer.table(&format!("materials.{}", key(&material.name)));
+            if let Some(density) = material.density {
+                writer.key("density", quantity(density, Dimension::DENSITY));
+            }
+        }
+    }
+
+    fn material_text(&self, index: usize) -> String {
+        text(self.materials.get(index).map_or("", |material| material.name.as_str()))
+    }
+}
+
+fn gravity(value: Vector3) -> String {
+    vector(value, Dimension::ACCELERATION)
+}
+
+/// `contacts.grain-plate.normal`.
+fn key_of_law(contact: &Contact, law: &NamedLaw, materials: &[Material]) -> String {
+    let [one, other] = contact.materials.map(|index| materials.get(index).map_or("", |m| m.name.as_str()));
+    format!("contacts.{}.{}", key(&format!("{one}-{other}")), law.role.key())
+}
+
+/// The keys of a law and their values as TOML. Conventions are no law and have no name.
+fn law_keys(law: &NamedLaw) -> Vec<(String, String)> {
+    let entries = crate::contact::entries(law.role);
+    let entry = entries.into_iter().find(|entry| entry.name == law.name);
+    let named = law.role != pulvis_contact::catalogue::Role::Conventions;
+    let mut keys: Vec<_> = named.then(|| ("law".to_owned(), text(law.name))).into_iter().collect();
+    for (name, value) in law.values.iter() {
+        let dimension = match entry.and_then(|entry| entry.parameter(name)).map(|parameter| parameter.kind) {
+            Some(Kind::Number { dimension, .. }) => dimension,
+            _ => Dimension::NONE,
+        };
+        let value = match value {
+            Value::Number(value) => quantity(*value, dimension),
+            Value::Choice(name) => text(name),
+        };
+        keys.push((key(name), value));
+    }
+    keys
+}
+
+fn write_law(writer: &mut Writer, law: &NamedLaw) {
+    for (name, value) in law_keys(law) {
+        writer.key(&name, value);
+    }
+}
+
+fn write_time(writer: &mut Writer, time: TimeStep) {
+    match time {
+        TimeStep::Auto { steps_per_contact_time } => {
+            writer.key("step", text("auto"));
+            writer.key("steps_per_contact_time", number(steps_per_contact_time));
+        }
+        TimeStep::Fixed(step) => writer.key("step", quantity(step, Dimension::TIME)),
+    }
+}
+
+fn write_output(writer: &mut Writer, output: &OutputPlan) {
+    let interval = |interval: Interval| match interval {
+        Interval::Steps(steps) => format!("{{ steps = {steps} }}"),
+        Interval::Time(time) => format!("{{ interval = {} }}", quantity(time, Dimension::TIME)),
+    };
+    writer.table("output");
+    writer.key("folder", text(&output.folder.to_string_lossy()));
+    writer.key("timeseries", interval(output.timeseries));
+    writer.key(
+        "vtk",
+        match output.snapshots {
+            Snapshots::Never => "false".to_owned(),
+            Snapshots::StageEnds => "true".to_owned(),
+            Snapshots::Every(every) => interval(every),
+        },
+    );
+    writer.key("plots", output.plots.to_string());
+    if let Some(scales) = output.dimensionless {
+        writer.table("output.dimensionless");
+        writer.key("length", quantity(scales.length, Dimension::LENGTH));
+        writer.key("stiffness", quantity(scales.stiffness, Dimension::STIFFNESS));
+    }
+}

@@ -1,0 +1,113 @@
+//! Stages of the resolved scenario: what each of them changes.
+
+use super::writer::{Writer, key, number, quantity, text, vector};
+use super::{gravity, key_of_law, law_keys, write_time};
+use crate::scenario::{Background, Contact, Scenario, Stage, StopRules, TimeStep, WallControl};
+use pulvis_math::{Dimension, Vector3};
+
+/// What held before a stage.
+struct Before<'s> {
+    contacts: &'s [Contact],
+    background: Background,
+    gravity: Vector3,
+    time: TimeStep,
+}
+
+impl Scenario {
+    pub(super) fn write_stages(&self, writer: &mut Writer) {
+        let mut before = Before {
+            contacts: &self.contacts,
+            background: self.background,
+            gravity: self.gravity,
+            time: self.time,
+        };
+        for stage in &self.stages {
+            writer.item("stages");
+            writer.key("name", text(&stage.name));
+            writer.table("stages.until");
+            write_until(writer, &stage.until);
+            for (index, control) in &stage.controls {
+                let name = self.walls.get(*index).map_or("", |wall| wall.name.as_str());
+                writer.table(&format!("stages.walls.{}", key(name)));
+                write_control(writer, control);
+            }
+            let switches = self.switches(stage, &before);
+            if !switches.is_empty() {
+                writer.table("stages.set");
+            }
+            for (path, value) in switches {
+                writer.key(&text(&path), value);
+            }
+            if stage.time != before.time {
+                writer.table("stages.time");
+                write_time(writer, stage.time);
+            }
+            let Stage { contacts, background, gravity, time, .. } = stage;
+            before = Before { contacts, background: *background, gravity: *gravity, time: *time };
+        }
+    }
+
+    /// Paths and values of everything that a stage switches. Laws are set as whole tables.
+    fn switches(&self, stage: &Stage, before: &Before<'_>) -> Vec<(String, String)> {
+        let mut switches = Vec::new();
+        if stage.gravity != before.gravity {
+            switches.push(("gravity".to_owned(), gravity(stage.gravity)));
+        }
+        let drags = |background: &Background| [background.drag, background.rotational_drag];
+        let names = ["background.drag", "background.rotational_drag"];
+        for ((name, new), old) in names.iter().zip(drags(&stage.background)).zip(drags(&before.background)) {
+            if new != old {
+                switches.push(((*name).to_owned(), quantity(new, Dimension::DASHPOT)));
+            }
+        }
+        for (contact, old) in stage.contacts.iter().zip(before.contacts) {
+            for (law, _) in contact.laws.iter().zip(&old.laws).filter(|(new, old)| new != old) {
+                let keys = law_keys(law).into_iter().map(|(name, value)| format!("{name} = {value}"));
+                let table = format!("{{ {} }}", keys.collect::<Vec<_>>().join(", "));
+                switches.push((key_of_law(contact, law, &self.materials), table));
+            }
+        }
+        switches
+    }
+}
+
+fn write_until(writer: &mut Writer, until: &StopRules) {
+    if let Some(time) = until.time {
+        writer.key("time", quantity(time, Dimension::TIME));
+    }
+    if let Some(ratio) = until.kinetic_to_elastic {
+        writer.key("kinetic_to_elastic", number(ratio));
+        writer.key("minimum_time", quantity(until.minimum_time, Dimension::TIME));
+    }
+    if let Some(rule) = until.strain {
+        writer.key(
+            "strain",
+            format!("{{ axis = {}, value = {} }}", text(rule.axis.name()), number(rule.value)),
+        );
+    }
+    if let Some(rule) = until.stress {
+        let (axis, value) = (text(rule.axis.name()), quantity(rule.value, Dimension::PRESSURE));
+        let crosses = text(rule.crosses.name());
+        writer.key("stress", format!("{{ axis = {axis}, value = {value}, crosses = {crosses} }}"));
+    }
+}
+
+fn write_control(writer: &mut Writer, control: &WallControl) {
+    writer.key("control", text(control.name()));
+    match control {
+        WallControl::Fixed | WallControl::Removed => {}
+        WallControl::Velocity(velocity) => writer.key("velocity", vector(*velocity, Dimension::VELOCITY)),
+        WallControl::Cosine(motion) => {
+            writer.key("displacement", vector(motion.displacement, Dimension::LENGTH));
+            writer.key("period", quantity(motion.period, Dimension::TIME));
+            writer.key("cycles", number(motion.cycles));
+        }
+        WallControl::Servo(servo) => {
+            writer.key("pressure", quantity(servo.pressure, Dimension::PRESSURE));
+            writer.key("from", quantity(servo.from, Dimension::PRESSURE));
+            writer.key("ramp", quantity(servo.ramp, Dimension::TIME));
+            writer.key("mass", quantity(servo.mass, Dimension::MASS));
+            writer.key("damping", quantity(servo.damping, Dimension::DASHPOT));
+        }
+    }
+}
