@@ -129,12 +129,26 @@ pub(crate) struct Running {
     pub(crate) viscous: f64,
     pub(crate) background: f64,
     background_power: f64,
+    /// What the gravity potential of wrapped positions lacks for being that of the way fallen.
+    pub(crate) gravity_wrapped: f64,
     pub(crate) switched: f64,
     pub(crate) initial: f64,
     pub(crate) scale: f64,
 }
 
 impl Running {
+    /// Contacts that the system starts with have lost what they lost before its time.
+    pub(crate) fn forget_losses(&mut self) {
+        self.contacts = ContactEnergies {
+            dissipated_plastic: 0.0,
+            dissipated_adhesive: 0.0,
+            dissipated_sliding: 0.0,
+            dissipated_rolling: 0.0,
+            dissipated_torsion: 0.0,
+            ..self.contacts
+        };
+    }
+
     /// Takes in the contacts' energies and the background's power at the end of a step. Powers are
     /// integrated by the trapezoidal rule: the work of a force over its two half kicks is the force
     /// times the velocity of its time, exactly.

@@ -158,6 +158,12 @@ impl Particles {
         });
     }
 
+    /// Memory of all columns [byte].
+    pub(crate) fn memory_size(&self) -> usize {
+        // Seven vectors, radius, mass, id and material; the skin keeps one more vector.
+        self.len() * (8 * size_of::<Vector3>() + 2 * size_of::<f64>() + 4 + 2)
+    }
+
     /// Sum of all momenta [kg m/s].
     pub fn momentum(&self) -> Vector3 {
         let parts = self.mass.iter().zip(&self.velocity).map(|(&mass, &velocity)| velocity * mass);

@@ -54,6 +54,21 @@ pub enum SetupError {
         /// The shortest one possible [m].
         least: f64,
     },
+    /// A wall stands across a periodic direction: a particle that leaves through the boundary would
+    /// come back on the wall's other side.
+    #[error("wall {wall} stands across axis {axis}, which is periodic; its normal must have no part along a periodic axis")]
+    WallAcrossPeriod {
+        /// Place of the wall in the list of walls.
+        wall: usize,
+        /// 0 is x, 1 is y, 2 is z.
+        axis: usize,
+    },
+    /// A wall follows a pressure, but its area is unknown.
+    #[error("wall {wall} follows a pressure, but the area of its face is unknown")]
+    NoArea {
+        /// Place of the wall in the list of walls.
+        wall: usize,
+    },
     /// The time step is no positive number.
     #[error("the time step is {0} s, expected a number greater than zero")]
     TimeStep(f64),
@@ -125,11 +140,16 @@ impl Simulation {
             rebuilds: 0,
         };
         simulation.check_models()?;
+        simulation.check_walls()?;
         let count = simulation.particles.len().max(1) as f64;
         simulation.skin.thickness = SKIN_PER_RADIUS * simulation.particles.radius.iter().sum::<f64>() / count;
         simulation.check_periods()?;
+        for (wall, state) in simulation.walls.iter().zip(&mut simulation.wall_states) {
+            state.start(&wall.motion);
+        }
         simulation.rebuild(&MemoryStore::default());
         simulation.evaluate_at_rest();
+        simulation.running.forget_losses();
         simulation.running.initial = simulation.ledger().held();
         Ok(simulation)
     }
@@ -144,6 +164,22 @@ impl Simulation {
                 if self.interactions.get(one, other).is_none() {
                     return Err(SetupError::NoModel { one, other });
                 }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_walls(&self) -> Result<(), SetupError> {
+        for (place, wall) in self.walls.iter().enumerate() {
+            // Normals of rotated boxes come with rounding errors.
+            let across = |&axis: &usize| wall.normal[axis].abs() > 1e-12;
+            if let Some(axis) =
+                (0..3).filter(|&axis| self.domain.period(axis).is_some()).find(across)
+            {
+                return Err(SetupError::WallAcrossPeriod { wall: place, axis });
+            }
+            if matches!(wall.motion, WallMotion::Servo(_)) && wall.area == FaceArea::Unknown {
+                return Err(SetupError::NoArea { wall: place });
             }
         }
         Ok(())
@@ -218,6 +254,9 @@ impl Simulation {
 
     fn move_walls(&mut self) {
         for place in 0..self.walls.len() {
+            if !self.walls[place].present {
+                continue;
+            }
             let area = self.wall_area(place);
             let since = self.time - self.wall_starts[place];
             self.wall_states[place].advance(&mut self.walls[place], area, since, self.time_step);
@@ -226,6 +265,9 @@ impl Simulation {
 
     fn finish_walls(&mut self, on_particles: &[Vector3]) {
         for (place, &force) in on_particles.iter().enumerate() {
+            if !self.walls[place].present {
+                continue;
+            }
             let area = self.wall_area(place);
             let since = self.time - self.wall_starts[place];
             self.wall_states[place].finish(&self.walls[place], -force, area, since, self.time_step);
@@ -287,8 +329,12 @@ impl Simulation {
 
     /// Puts the particles into cell order and lists all candidates within reach and skin.
     fn rebuild(&mut self, memory: &MemoryStore) {
-        for position in &mut self.particles.position {
-            *position = self.domain.wrapped(*position);
+        let gravity = self.background.gravity;
+        for (position, mass) in self.particles.position.iter_mut().zip(&self.particles.mass) {
+            let wrapped = self.domain.wrapped(*position);
+            // Falling through a periodic boundary is falling on: the potential must not jump.
+            self.running.gravity_wrapped += mass * gravity.dot(wrapped - *position);
+            *position = wrapped;
         }
         let (grid, order) = CellGrid::sort(&self.domain, &self.particles.position, self.search_radius());
         self.particles.reorder(&order);
@@ -384,7 +430,7 @@ impl Simulation {
             elastic_rolling: held.elastic_rolling,
             elastic_torsion: held.elastic_torsion,
             adhesive: held.adhesive_potential,
-            gravity: self.background.potential(particles),
+            gravity: self.background.potential(particles) + self.running.gravity_wrapped,
             dissipated_plastic: held.dissipated_plastic,
             dissipated_adhesive: held.dissipated_adhesive,
             dissipated_viscous: self.running.viscous,
@@ -472,6 +518,12 @@ impl Simulation {
         self.rebuilds
     }
 
+    /// Memory of particles, candidates and contact memory [byte].
+    pub fn memory_size(&self) -> usize {
+        let groups = self.pairs.iter().chain(&self.wall_contacts);
+        self.particles.memory_size() + groups.map(ContactGroup::memory_size).sum::<usize>()
+    }
+
     /// Candidate contacts in the list.
     pub fn candidates(&self) -> usize {
         self.pairs.iter().chain(&self.wall_contacts).map(ContactGroup::len).sum()
@@ -494,7 +546,10 @@ impl Simulation {
 
     /// Sets another gravity and drag.
     pub fn set_background(&mut self, background: Background) {
-        self.switch(|simulation| simulation.background = background);
+        self.switch(|simulation| {
+            simulation.background = background;
+            simulation.running.gravity_wrapped = 0.0;
+        });
     }
 
     /// Sets another time step [s].
@@ -508,17 +563,41 @@ impl Simulation {
 
     /// Lets a wall move in another way from now on.
     pub fn set_wall_motion(&mut self, place: usize, motion: WallMotion) {
-        self.walls[place].motion = motion;
-        self.wall_states[place].start(&motion);
-        self.wall_starts[place] = self.time;
+        // Dashpots see the wall's new velocity at once.
+        self.switch(|simulation| {
+            simulation.walls[place].motion = motion;
+            simulation.wall_states[place].start(&motion);
+            simulation.wall_starts[place] = simulation.time;
+        });
     }
 
-    /// Takes a wall away, or puts it back where it stood.
+    /// Takes a wall away, or puts it back where it stood, its motion beginning anew. A wall that is
+    /// away does not move.
     pub fn set_wall_present(&mut self, place: usize, present: bool) {
         self.switch(|simulation| {
+            if present && !simulation.walls[place].present {
+                simulation.wall_starts[place] = simulation.time;
+                simulation.wall_states[place].start(&simulation.walls[place].motion);
+            } else if !present {
+                simulation.wall_states[place].stop();
+            }
             simulation.walls[place].present = present;
             simulation.renew_candidates();
         });
+    }
+
+    /// Sets how far beyond their reach candidates are listed [m]; at the start a fifth of the mean
+    /// radius. Thicker lists are renewed less often but hold more candidates that do not touch. A
+    /// skin must be thicker than what any particle moves in a step.
+    pub fn set_skin(&mut self, thickness: f64) -> Result<(), SetupError> {
+        // What is no number counts as no skin.
+        let before = std::mem::replace(&mut self.skin.thickness, thickness.max(0.0));
+        if let Err(error) = self.check_periods() {
+            self.skin.thickness = before;
+            return Err(error);
+        }
+        self.switch(|simulation| simulation.renew_candidates());
+        Ok(())
     }
 
     fn switch(&mut self, change: impl FnOnce(&mut Self)) {

@@ -56,6 +56,11 @@ impl ContactGroup {
         self.count
     }
 
+    /// Memory of the candidates and of what they remember [byte].
+    pub(crate) fn memory_size(&self) -> usize {
+        size_of_val(&self.first[..]) + size_of_val(&self.second[..]) + size_of_val(&self.memory[..])
+    }
+
     /// Adds a candidate contact, with its memory where it has any.
     pub(crate) fn push(&mut self, first: u32, second: u32, remembered: Option<&[f64]>) {
         let lane = self.count % WIDTH;

@@ -5,7 +5,7 @@ use pulvis_contact::ContactModel;
 use crate::particles::MaterialIndex;
 
 /// A symmetric table of contact models, one for every pair of materials that can meet.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Interactions {
     materials: usize,
     models: Vec<Option<ContactModel>>,
@@ -17,15 +17,25 @@ impl Interactions {
         Self { materials, models: vec![None; materials * materials] }
     }
 
-    /// Sets the model of a pair of materials, in either order.
+    /// Sets the model of a pair of materials, in either order; the table grows where it must.
     pub fn set(&mut self, one: MaterialIndex, other: MaterialIndex, model: ContactModel) {
+        let needed = usize::from(one.max(other)) + 1;
+        if needed > self.materials {
+            let mut grown = Self::new(needed);
+            for (place, known) in self.models.iter().enumerate() {
+                grown.models[place / self.materials * needed + place % self.materials] = *known;
+            }
+            *self = grown;
+        }
         let place = self.group(one, other);
         self.models[place] = Some(model);
     }
 
-    /// The model of a pair of materials.
+    /// The model of a pair of materials, if there is one.
     pub fn get(&self, one: MaterialIndex, other: MaterialIndex) -> Option<&ContactModel> {
-        self.models[self.group(one, other)].as_ref()
+        // Beyond the table, the place would be that of another pair.
+        let listed = usize::from(one.max(other)) < self.materials;
+        if listed { self.models[self.group(one, other)].as_ref() } else { None }
     }
 
     /// How many groups of pairs there can be.
@@ -48,5 +58,30 @@ impl Interactions {
     /// The largest reach of all models [m].
     pub fn reach(&self) -> f64 {
         self.models.iter().flatten().map(ContactModel::reach).fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+    use pulvis_contact::Linear;
+
+    use super::*;
+
+    fn model(stiffness: f64) -> ContactModel {
+        ContactModel::frictionless(Linear::new(stiffness, 0.0))
+    }
+
+    #[test]
+    fn materials_beyond_the_table_have_no_model_and_do_not_borrow_that_of_others() {
+        let mut interactions = Interactions::new(3);
+        interactions.set(1, 2, model(1.0));
+        assert_eq!(interactions.get(0, 5), None);
+        assert_eq!(interactions.get(9, 9), None);
+        interactions.set(0, 5, model(2.0));
+        assert_eq!(interactions.get(5, 0), Some(&model(2.0)));
+        assert_eq!(interactions.get(2, 1), Some(&model(1.0)));
+        assert_eq!(interactions.get(0, 0), None);
     }
 }

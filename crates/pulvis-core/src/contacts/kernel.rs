@@ -129,7 +129,8 @@ fn sweep_pairs<N: NormalLaw, const FRICTION: bool>(
         let radius_j = gather(moving.radius, &second);
         let distance = separation.norm();
         let overlap = radius_i + radius_j - distance;
-        let overlap = Lane::select(filled_lanes(filled), overlap, -(radius_i + radius_j));
+        // Idle lanes are out of any reach.
+        let overlap = Lane::select(filled_lanes(filled), overlap, reach + reach - radius_i);
         let acts = overlap.gt(reach).any();
         if !acts && !group.live[block] {
             continue;
@@ -240,8 +241,8 @@ fn sweep_wall<N: NormalLaw, const FRICTION: bool>(
         let filled = group.filled(block);
         let radius = gather(moving.radius, &rows);
         let distance = gather3(moving.position, &rows).dot(normal) - Lane::splat(wall.offset);
-        let overlap = Lane::select(filled_lanes(filled), radius - distance, -radius);
-        let acts = (overlap.gt(reach) & filled_lanes(filled)).any();
+        let overlap = Lane::select(filled_lanes(filled), radius - distance, reach + reach - radius);
+        let acts = overlap.gt(reach).any();
         if !acts && !group.live[block] {
             continue;
         }

@@ -106,13 +106,21 @@ pub(crate) struct WallState {
 }
 
 impl WallState {
-    /// Forgets the velocity: the wall starts a new motion from rest. A servo goes on from the
-    /// velocity that it has.
+    /// The wall starts a new motion, with the velocity that the motion begins with. A servo goes on
+    /// from the velocity that it has.
     pub(crate) fn start(&mut self, motion: &WallMotion) {
         self.travelled = Vector3::zero();
-        if !matches!(motion, WallMotion::Servo(_)) {
-            self.velocity = Vector3::zero();
+        match motion {
+            WallMotion::Servo(_) => {}
+            WallMotion::Velocity(motion) => self.velocity = motion.velocity,
+            WallMotion::Fixed | WallMotion::Cosine(_) => self.velocity = Vector3::zero(),
         }
+    }
+
+    /// The wall is taken away: it stands still and nothing pushes it.
+    pub(crate) fn stop(&mut self) {
+        self.velocity = Vector3::zero();
+        self.force = Vector3::zero();
     }
 
     /// Moves the wall over the step from `time` (since the motion began) to `time + time_step` [s].

@@ -1,0 +1,138 @@
+//! Every joule that is lost has an account, and is lost once.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::*;
+use pulvis_contact::noncontact::JumpIn;
+use pulvis_contact::theory::LinearSpringDashpot;
+use pulvis_contact::{ContactModel, Linear, NonContact};
+use pulvis_core::{Background, Ledger, Setup};
+
+const EDGE: f64 = 12.5 * RADIUS;
+
+/// Spheres that fall together, and down, in a box.
+fn box_of_powder(model: ContactModel) -> Setup {
+    Setup {
+        walls: cube_of_walls(EDGE),
+        background: Background { drag: 1e-6, rotational_drag: 1e-6, ..gravity(9.81) },
+        ..implosion(70, EDGE, 5, model)
+    }
+}
+
+fn closing_errors(powder: &Setup, contact_times: f64) -> Vec<f64> {
+    let watch = |steps_per_contact: f64| {
+        let steps = (contact_times * steps_per_contact) as usize;
+        advance_watching(&mut start(powder.clone(), steps_per_contact), steps, 10)
+    };
+    [50.0, 100.0, 200.0, 400.0, 800.0].map(watch).into()
+}
+
+#[test]
+fn the_ledger_of_the_whole_model_closes_at_second_order() {
+    let errors = closing_errors(&box_of_powder(viscous_luding()), 60.0);
+    assert!(errors[0] < 1e-3, "{errors:?}");
+    assert!(order(&errors) > 1.7, "observed order {}: {errors:?}", order(&errors));
+}
+
+#[test]
+fn an_attraction_that_jumps_in_closes_the_ledger_at_first_order() {
+    let mut model = luding();
+    model.composition.noncontact = NonContact::JumpIn(JumpIn { f_a: 1e-4, kc_a: 50.0 });
+    let errors = closing_errors(&box_of_powder(model), 60.0);
+    // Touches lie anywhere between two steps, and the force jumps there.
+    assert!(errors[0] < 1e-3, "{errors:?}");
+    assert!(order(&errors) > 0.75, "observed order {}: {errors:?}", order(&errors));
+}
+
+fn losses(ledger: &Ledger) -> [f64; 5] {
+    [
+        ledger.dissipated_plastic,
+        ledger.dissipated_adhesive,
+        ledger.dissipated_sliding,
+        ledger.dissipated_rolling,
+        ledger.dissipated_torsion,
+    ]
+}
+
+#[test]
+fn without_dashpots_every_loss_only_grows() {
+    let mut powder = start(box_of_powder(luding()), 50.0);
+    let mut before = losses(&powder.ledger());
+    assert_eq!(before, [0.0; 5]);
+    for _ in 0..3_000 {
+        powder.step().unwrap();
+        let ledger = powder.ledger();
+        let now = losses(&ledger);
+        for (account, (now, before)) in now.iter().zip(before).enumerate() {
+            // Adding up what no contact lost leaves roundings.
+            assert!(*now >= before - 1e-15 * ledger.scale, "account {account}: {before} then {now}");
+        }
+        before = now;
+    }
+    assert!(before.iter().all(|&lost| lost > 0.0), "{before:?}");
+}
+
+#[test]
+fn dashpots_and_slip_together_only_lose() {
+    let mut powder = start(box_of_powder(viscous_luding()), 50.0);
+    let mut before = 0.0;
+    for _ in 0..3_000 {
+        powder.step().unwrap();
+        let ledger = powder.ledger();
+        // Where a sliding contact's dashpot alone exceeds the Coulomb limit, slip gives back what the
+        // dashpot is said to take beyond it.
+        let now = ledger.dissipated_viscous
+            + ledger.dissipated_sliding
+            + ledger.dissipated_rolling
+            + ledger.dissipated_torsion;
+        assert!(now >= before - 1e-7 * ledger.scale, "{before} then {now} of {}", ledger.scale);
+        before = now;
+    }
+    let ledger = powder.ledger();
+    assert!(ledger.dissipated_background > 0.0 && ledger.dissipated_viscous > 0.0);
+}
+
+#[test]
+fn contacts_at_the_start_have_lost_what_they_lost_before() {
+    let pair = [0.0, 1.9 * RADIUS].map(|x| sphere(vector(x, 0.0, 0.0), vector(0.0, 0.0, 0.0), RADIUS));
+    let mut pair = start(setup(pair.into(), luding()), 100.0);
+    let ledger = pair.ledger();
+    assert!(ledger.elastic_normal > 0.0);
+    assert_eq!(ledger.initial, ledger.held());
+    assert_eq!(ledger.dissipated(), 0.0);
+    assert_eq!(ledger.closing_error(), 0.0);
+    assert!(advance_watching(&mut pair, 200, 1) < 1e-3);
+}
+
+/// Restitution of two unequal spheres that meet at 0.2 m/s along a slanted line.
+fn restitution(model: ContactModel, steps_per_contact: f64) -> f64 {
+    let along = vector(0.48, 0.6, 0.64);
+    let gap = 0.3123 * RADIUS;
+    let pair = vec![
+        sphere(vector(0.0, 0.0, 0.0), along * 0.2, RADIUS),
+        sphere(along * (1.7 * RADIUS + gap), vector(0.0, 0.0, 0.0), 0.7 * RADIUS),
+    ];
+    let setup = setup(pair, model);
+    let flight = gap / 0.2;
+    let steps = ((flight + 3.0 * contact_time(&setup)) / contact_time(&setup) * steps_per_contact) as usize;
+    let mut simulation = start(setup, steps_per_contact);
+    advance(&mut simulation, steps);
+    let states = states(&simulation);
+    (states[1].velocity - states[0].velocity).dot(along) / 0.2
+}
+
+#[test]
+fn the_restitution_of_a_dashpot_converges_to_the_closed_form() {
+    let (stiffness, dashpot) = (1000.0, 8e-3);
+    let masses = [RADIUS, 0.7 * RADIUS].map(|radius| sphere(vector(0.0, 0.0, 0.0), vector(0.0, 0.0, 0.0), radius).mass);
+    let reduced_mass = masses[0] * masses[1] / (masses[0] + masses[1]);
+    let theory = LinearSpringDashpot::new(stiffness, dashpot, reduced_mass).unwrap().restitution();
+    assert!(theory > 0.2 && theory < 0.8, "{theory}");
+    for steps_per_contact in [25.0, 50.0, 100.0, 400.0, 1600.0] {
+        let error = restitution(ContactModel::frictionless(Linear::new(stiffness, dashpot)), steps_per_contact) - theory;
+        // The dashpot's force jumps at touch and at parting, anywhere within a step: first order.
+        println!("{steps_per_contact} {error:e} {}", error*steps_per_contact);
+        assert!(error.abs() < 1.0 / steps_per_contact, "{steps_per_contact}: {error}");
+    }
+}
