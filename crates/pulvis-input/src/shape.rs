@@ -160,6 +160,7 @@ impl Shape for Text {
     fn read(&self, value: &ValueReader<'_>) -> Result<String, Reported> {
         match value.raw() {
             Value::Text(text) if !text.trim().is_empty() => Ok(text.clone()),
+            Value::Text(_) => Err(value.wrong_type("a text that is not empty")),
             _ => Err(value.wrong_type(&self.describe())),
         }
     }

@@ -125,11 +125,12 @@ fn read_file(table: &mut TableReader<'_>, folder: &Path) -> Result<Arrangement, 
     let path = std::path::absolute(&path).unwrap_or(path);
     match read_points(&path) {
         Ok(grains) => Ok(Arrangement::File { path, grains }),
-        Err(error @ PointsError::Unreadable { .. }) => Err(table.refuse_with_help(
-            "path",
-            Problem::Refused(Box::new(error)),
-            "the path is relative to the folder of the scenario",
-        )),
+        Err(error @ (PointsError::Missing { .. } | PointsError::Unreadable { .. })) => Err(table
+            .refuse_with_help(
+                "path",
+                Problem::Refused(Box::new(error)),
+                "the path is relative to the folder of the scenario",
+            )),
         Err(error) => Err(table.refuse("path", Problem::Refused(Box::new(error)))),
     }
 }

@@ -44,25 +44,29 @@ fn sorted(one: usize, other: usize) -> [usize; 2] {
 }
 
 /// Reads `[contacts.A-B]`, one for each pair of materials that can meet and for no other, in the order
-/// of the materials.
+/// of the materials. Where the use of the materials is not known because of other mistakes, only the
+/// laws are checked.
 pub(super) fn read_contacts(
     root: &mut TableReader<'_>,
     materials: &[Material],
-    used: &MaterialUse,
+    used: Option<&MaterialUse>,
 ) -> Result<Vec<Contact>, Reported> {
-    let needed = used.pairs();
+    let needed = used.map(MaterialUse::pairs);
     let name = |index: usize| materials.get(index).map_or("", |material| material.name.as_str());
     let mut contacts = Vec::new();
     let mut met: Vec<([usize; 2], String)> = Vec::new();
     let mut failure = None;
+    let mut named = true;
     for (key, table) in root.named_tables("contacts")? {
-        let read = pair_of(&key, &table, materials).and_then(|pair| {
+        let pair = pair_of(&key, &table, materials);
+        named &= pair.is_ok();
+        let read = pair.and_then(|pair| {
             if let Some((_, first)) = met.iter().find(|(known, _)| *known == pair) {
                 let found = format!("`{first}` and `{key}` are the same contact");
                 return Err(table.refuse("", Problem::rule(found, "only one of them")));
             }
             met.push((pair, key));
-            if !needed.contains(&pair) {
+            if needed.as_ref().is_some_and(|needed| !needed.contains(&pair)) {
                 let found = format!("{} and {} never meet", name(pair[0]), name(pair[1]));
                 let expected = "contacts between materials of particles, or of particles and walls";
                 return Err(table.refuse("", Problem::rule(found, expected)));
@@ -75,7 +79,8 @@ pub(super) fn read_contacts(
             Err(reported) => failure = Some(reported),
         }
     }
-    for pair in needed {
+    // A misspelled contact is not reported as a missing one, too.
+    for pair in needed.unwrap_or_default().into_iter().filter(|_| named) {
         if !met.iter().any(|(known, _)| *known == pair) {
             let (one, other) = (name(pair[0]), name(pair[1]));
             let key = format!("contacts.{one}-{other}");

@@ -15,19 +15,32 @@ pub struct Material {
     pub density: Option<f64>,
 }
 
-/// Reads `[materials.NAME]`.
-pub(super) fn read_materials(root: &mut TableReader<'_>) -> Result<Vec<Material>, Reported> {
+/// Reads `[materials.NAME]`. The second value tells whether all of them are fit for use; the names are
+/// good in any case, so that the rest of the file can be read for more mistakes.
+pub(super) fn read_materials(
+    root: &mut TableReader<'_>,
+) -> Result<(Vec<Material>, Result<(), Reported>), Reported> {
     let tables = root.named_tables("materials")?;
     if tables.is_empty() {
         let expected = "a table [materials.NAME] for each material".to_owned();
         let problem = Problem::MissingKey { key: "materials".to_owned(), expected };
         return Err(root.refuse("materials", problem));
     }
-    let materials: Vec<_> = tables.into_iter().map(|(name, table)| read_material(name, table)).collect();
-    materials.into_iter().collect()
+    let mut fit = Ok(());
+    let mut materials = Vec::new();
+    for (name, table) in tables {
+        let (density, read) = match read_density(&name, table) {
+            Ok(density) => (density, Ok(())),
+            // Not `None`, which would be reported once more for each group of particles.
+            Err(reported) => (Some(f64::NAN), Err(reported)),
+        };
+        materials.push(Material { name, density });
+        fit = fit.and(read);
+    }
+    Ok((materials, fit))
 }
 
-fn read_material(name: String, mut table: TableReader<'_>) -> Result<Material, Reported> {
+fn read_density(name: &str, mut table: TableReader<'_>) -> Result<Option<f64>, Reported> {
     let plain = name.chars().all(|c| c.is_alphanumeric() || c == '_');
     let named = if plain {
         Ok(())
@@ -39,7 +52,7 @@ fn read_material(name: String, mut table: TableReader<'_>) -> Result<Material, R
     let density = table.optional("density", QuantityRule::of(Dimension::DENSITY).above(0.0));
     table.finish();
     named?;
-    Ok(Material { name, density: density? })
+    density
 }
 
 /// Reads the name of a material at `key` and gives its index.

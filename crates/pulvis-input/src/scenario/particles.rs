@@ -51,12 +51,20 @@ pub(super) fn read_particles(
 ) -> Result<Vec<PlacedGroup>, Reported> {
     let tables = root.tables("particles")?;
     if tables.is_empty() {
-        let expected = "one or more tables [[particles]]".to_owned();
-        let problem = Problem::MissingKey { key: "particles".to_owned(), expected };
-        return Err(root.refuse("particles", problem));
+        return Err(root.refuse("particles", no_tables(root, "particles")));
     }
     let groups: Vec<_> = tables.into_iter().map(|table| read_group(table, materials, folder)).collect();
     groups.into_iter().collect()
+}
+
+/// A list of tables that is missing or empty.
+pub(super) fn no_tables(root: &TableReader<'_>, key: &str) -> Problem {
+    let expected = format!("one or more tables [[{key}]]");
+    if root.keys().contains(&key) {
+        Problem::rule("the list is empty", expected)
+    } else {
+        Problem::MissingKey { key: key.to_owned(), expected }
+    }
 }
 
 fn read_group(
@@ -109,7 +117,7 @@ fn fitting_count(
     let listed = |kind: &str, positions: usize| match given {
         None => Ok(positions),
         Some(_) => {
-            let expected = format!("no `count`: the {kind} holds {positions} particles");
+            let expected = format!("no `count` beside a {kind}, which gives it");
             Err(table.refuse("count", Problem::rule("the number of particles is given twice", expected)))
         }
     };

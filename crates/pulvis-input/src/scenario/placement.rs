@@ -69,8 +69,11 @@ fn points(group: &ParticleGroup) -> Vec<Point> {
 fn behind_wall(point: &Point, wall: &Wall) -> Problem {
     let Point { what, at, .. } = point;
     let (x, y, z) = (at.x, at.y, at.z);
-    let found =
-        format!("{what} ({x}, {y}, {z}) m, lies {} m behind the wall {}", -wall.distance(*at), wall.name);
+    let found = format!(
+        "{what} ({x}, {y}, {z}) m, lies {} m behind the wall {}",
+        rounded(-wall.distance(*at)),
+        wall.name
+    );
     Problem::rule(found, "particles on the side to which the wall's normal points")
 }
 
@@ -86,4 +89,9 @@ fn outside_domain(point: &Point, domain: &Domain) -> Option<Problem> {
         let found = format!("{what} {name} = {value} m, lies outside the domain");
         Some(Problem::rule(found, format!("{name} from {lower} m to {upper} m, where it repeats")))
     })
+}
+
+/// The value with six digits, as a message shows it.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }

@@ -8,6 +8,12 @@ use thiserror::Error;
 /// Why a file of positions cannot be used.
 #[derive(Debug, Error)]
 pub enum PointsError {
+    /// No such file.
+    #[error("there is no file {file}")]
+    Missing {
+        /// The path of the file.
+        file: String,
+    },
     /// The file cannot be read.
     #[error("{file} cannot be read: {reason}")]
     Unreadable {
@@ -102,6 +108,7 @@ pub(super) fn read_points(path: &Path) -> Result<Vec<Grain>, PointsError> {
     let file = path.display().to_string();
     match std::fs::read_to_string(path) {
         Ok(text) => parse_points(&file, &text),
+        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => Err(PointsError::Missing { file }),
         Err(reason) => Err(PointsError::Unreadable { file, reason }),
     }
 }

@@ -170,8 +170,8 @@ fn read_list(table: &mut TableReader<'_>) -> Result<RadiusDistribution, Reported
     let values = values?;
     let weights = weights?.unwrap_or_else(|| vec![1.0; values.len()]);
     if weights.len() != values.len() {
-        let found = format!("{} weights stand beside {} values", weights.len(), values.len());
-        return Err(table.refuse("weights", Problem::rule(found, "one weight for each value")));
+        let expected = format!("one weight for each of the {} radii", values.len());
+        return Err(table.refuse("weights", Problem::WrongLength { found: weights.len(), expected }));
     }
     if weights.iter().all(|weight| *weight == 0.0) {
         return Err(table.refuse("weights", Problem::rule("all weights are 0", "a weight greater than 0")));

@@ -4,6 +4,7 @@ use super::axis::{Axis, BoxFace, Side};
 use super::contacts::Contact;
 use super::controls::{WallControl, read_control};
 use super::domain::Background;
+use super::particles::no_tables;
 use super::switches::{Switch, read_switches};
 use super::time::{TimeStep, read_time};
 use super::until::{StopRules, read_until};
@@ -50,9 +51,7 @@ pub(super) fn read_stages(
 ) -> Result<Vec<PlannedStage>, Reported> {
     let tables = root.tables("stages")?;
     if tables.is_empty() {
-        let expected = "one or more tables [[stages]]".to_owned();
-        let problem = Problem::MissingKey { key: "stages".to_owned(), expected };
-        return Err(root.refuse("stages", problem));
+        return Err(root.refuse("stages", no_tables(root, "stages")));
     }
     let mut stages: Vec<PlannedStage> = Vec::new();
     let mut now = Now { controls: vec![WallControl::Fixed; walls.len()], time };

@@ -64,26 +64,23 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     let time = read_time(&mut root, TimeStep::default());
     let output = read_output(&mut root, file);
     // Everything else speaks of materials.
-    let materials = read_materials(&mut root);
-    let bodies = materials.as_ref().map_err(|reported| *reported).and_then(|materials| {
-        let known = domain.as_ref().map_or(None, Option::as_ref);
-        let walls = read_walls(&mut root, materials, known);
-        let groups = read_particles(&mut root, materials, folder);
-        let (walls, groups) = (walls?, groups?);
+    let (materials, fit) = read_materials(&mut root)?;
+    let known = domain.as_ref().map_or(None, Option::as_ref);
+    let walls = read_walls(&mut root, &materials, known);
+    let groups = read_particles(&mut root, &materials, folder);
+    let stages = match (&walls, &time) {
+        (Ok(walls), Ok(time)) => read_stages(&mut root, &walls.walls, *time),
+        (&Err(reported), _) | (_, &Err(reported)) => Err(reported),
+    };
+    let bodies = walls.and_then(|walls| {
+        let groups = groups?;
         check_placement(&root, &groups, &walls.walls, known)?;
         Ok((walls, groups))
     });
-    let stages = match (&bodies, &time) {
-        (Ok((walls, _)), Ok(time)) => read_stages(&mut root, &walls.walls, *time),
-        (&Err(reported), _) | (_, &Err(reported)) => Err(reported),
-    };
-    let used =
-        bodies.as_ref().map(|(walls, groups)| material_use(walls, groups)).map_err(|reported| *reported);
-    let changing = match (&materials, &used) {
-        (Ok(materials), Ok(used)) => Changing::read(&mut root, materials, used),
-        (&Err(reported), _) | (_, &Err(reported)) => Err(reported),
-    };
+    let used = bodies.as_ref().map(|(walls, groups)| material_use(walls, groups)).ok();
+    let changing = Changing::read(&mut root, &materials, used.as_ref());
     root.finish();
+    fit?;
     let (walls, groups) = bodies?;
     let Changing { contacts, background, gravity } = changing?;
     let scenario = Scenario {
@@ -92,7 +89,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         seed: seed?.unsigned_abs(),
         gravity,
         domain: domain?,
-        materials: materials?,
+        materials,
         contacts,
         background,
         particles: groups.into_iter().map(|(group, _)| group).collect(),
@@ -102,7 +99,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         stages: Vec::new(),
         output: output?,
     };
-    Ok((scenario, stages?, used?))
+    Ok((scenario, stages?, used.unwrap_or_default()))
 }
 
 /// The materials of particles and walls, each once.
@@ -129,7 +126,7 @@ impl Changing {
     fn read(
         root: &mut TableReader<'_>,
         materials: &[Material],
-        used: &MaterialUse,
+        used: Option<&MaterialUse>,
     ) -> Result<Self, Reported> {
         let gravity = read_gravity(root);
         let background = read_background(root);
@@ -159,7 +156,7 @@ fn resolve(
         } else {
             document = switched(&document, &switches)?;
             let read = document.read(|mut root| {
-                let changing = Changing::read(&mut root, &scenario.materials, used);
+                let changing = Changing::read(&mut root, &scenario.materials, Some(used));
                 // The rest of the file has been checked in the first walk.
                 for key in root.keys() {
                     root.value(key);

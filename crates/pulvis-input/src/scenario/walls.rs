@@ -3,7 +3,7 @@
 use super::axis::{Axis, BoxFace, Side};
 use super::domain::{Domain, Extent, read_extent};
 use super::materials::{Material, read_material_name};
-use crate::context::Reported;
+use crate::context::{Location, Reported};
 use crate::list::{List, Vector};
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
@@ -55,13 +55,14 @@ pub(super) fn read_walls(
         Err(reported) => Err(reported),
     };
     let tables = root.named_tables("walls")?;
+    let places: Vec<Location> = tables.iter().map(|(_, table)| table.location("")).collect();
     let planes: Vec<_> =
         tables.into_iter().map(|(name, table)| read_wall(name, table, materials, domain)).collect();
     let (enclosure, mut walls) = enclosed?;
-    for plane in planes {
+    for (plane, place) in planes.into_iter().zip(places) {
         let plane = plane?;
         if let Some(problem) = walls.iter().find_map(|wall| clash(&plane, wall)) {
-            return Err(root.refuse("walls", problem));
+            return Err(root.refuse_at(&place, problem));
         }
         walls.push(plane);
     }
@@ -215,7 +216,7 @@ fn clash(plane: &Wall, wall: &Wall) -> Option<Problem> {
         return Some(Problem::rule(format!("{names} are the same plane"), "each wall once"));
     }
     if parallel(-1.0) && distance <= 0.0 {
-        let found = format!("{names} overlap: they lie {} m behind each other", -distance);
+        let found = format!("{names} overlap: they lie {} m behind each other", distance.abs());
         return Some(Problem::rule(found, "space between walls that face each other"));
     }
     None

@@ -1,0 +1,164 @@
+//! Every file in `tests/good` is a scenario, and means what it says.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use pulvis_contact::{Normal, Viscosity};
+use pulvis_input::Scenario;
+use pulvis_input::scenario::*;
+use std::path::{Path, PathBuf};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/good")
+}
+
+fn good(name: &str) -> Scenario {
+    Scenario::load(folder().join(name)).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+fn all() -> Vec<Scenario> {
+    let mut names: Vec<String> = std::fs::read_dir(folder())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".toml"))
+        .collect();
+    names.sort();
+    assert!(names.len() >= 5, "the folder of good files was not found");
+    names.iter().map(|name| good(name)).collect()
+}
+
+#[test]
+fn a_resolved_scenario_reads_back_to_the_same_one() {
+    for scenario in all() {
+        let name = &scenario.source.name;
+        let text = scenario.to_resolved_toml("1.2.3");
+        assert!(text.starts_with("# Pulvis 1.2.3\n"), "{text}");
+        let mut again = Scenario::from_str("run.toml", &text)
+            .unwrap_or_else(|errors| panic!("{name} resolved to\n{text}\nwhich is refused:\n{errors}"));
+        again.source = scenario.source.clone();
+        assert_eq!(again, scenario, "{text}");
+        assert_eq!(again.to_resolved_toml("1.2.3"), text, "a resolved scenario is already resolved");
+    }
+}
+
+#[test]
+fn a_scenario_cut_off_anywhere_is_read_or_refused_but_never_breaks_the_reader() {
+    for scenario in all() {
+        let text = &scenario.source.text;
+        // A prime step keeps the test short and still hits every kind of line.
+        for end in (0..text.len()).step_by(7).filter(|&end| text.is_char_boundary(end)) {
+            if let Err(errors) = Scenario::from_str("cut.toml", &text[..end]) {
+                let shown = errors.to_string();
+                assert!(!shown.is_empty() && !shown.contains("bug in Pulvis"), "{end}: {shown}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_left_out_has_its_default() {
+    let scenario = good("minimal.toml");
+    assert_eq!((scenario.seed, scenario.title.as_deref()), (1, None));
+    assert_eq!(scenario.gravity.to_array(), [0.0; 3]);
+    assert_eq!(scenario.background, Background::default());
+    assert_eq!(scenario.time, TimeStep::Auto { steps_per_contact_time: 50.0 });
+    assert_eq!((scenario.domain, scenario.enclosure, scenario.walls.len()), (None, None, 0));
+    let expected = OutputPlan {
+        folder: "minimal-run".into(),
+        timeseries: Interval::Steps(100),
+        snapshots: Snapshots::StageEnds,
+        plots: true,
+        dimensionless: None,
+    };
+    assert_eq!(scenario.output, expected);
+    assert_eq!(scenario.particles[0].velocity.mean.to_array(), [1.0, 0.0, 0.0]);
+    assert_eq!(scenario.particle_count(), 1);
+}
+
+#[test]
+fn a_tablet_has_its_walls_contacts_and_stages() {
+    let tablet = good("tablet.toml");
+    assert_eq!((tablet.seed, tablet.particles[0].count), (42, 200));
+    let names: Vec<&str> = tablet.walls.iter().map(|wall| wall.name.as_str()).collect();
+    assert_eq!(names, BoxFace::NAMES);
+    assert_eq!(tablet.walls[1].material, tablet.material("sticky_plate").unwrap());
+    assert_eq!(tablet.walls[2].material, tablet.material("plate").unwrap());
+    let pairs: Vec<[usize; 2]> = tablet.contacts.iter().map(|contact| contact.materials).collect();
+    assert_eq!(pairs, [[0, 0], [0, 1], [0, 2]]);
+    let [relax, sinter, release, pull, cycles] = &tablet.stages[..] else { panic!("five stages") };
+    assert_eq!((relax.until.kinetic_to_elastic, relax.until.minimum_time), (Some(1e-5), 1e-6));
+    let stress = StressRule { axis: Axis::X, value: 4e7, crosses: Crossing::Upwards };
+    assert_eq!(sinter.until.stress, Some(stress));
+    let (x_high, control) = sinter.controls[0];
+    assert_eq!(tablet.walls[x_high].name, "x-high");
+    let servo = Servo { pressure: 4e7, from: 0.0, ramp: 1e-6, mass: 1e-9, damping: 1e-3 };
+    assert_eq!(control, WallControl::Servo(servo));
+    assert_eq!(sinter.time, TimeStep::Auto { steps_per_contact_time: 20.0 });
+    assert_eq!((sinter.background.drag, release.background.drag), (1e-5, 0.0));
+    assert_eq!(release.background.rotational_drag, 1e-6);
+    assert_eq!(pull.controls.iter().filter(|(_, c)| *c == WallControl::Removed).count(), 4);
+    assert_eq!(pull.background.drag, 0.0, "a switch holds on through later stages");
+    let two_and_a_half_periods = 2.5e-5;
+    assert!((cycles.until.time.unwrap() - two_and_a_half_periods).abs() < 1e-18);
+    assert_eq!(cycles.time, TimeStep::Fixed(1e-10));
+}
+
+#[test]
+fn a_lattice_fills_its_block_with_cells() {
+    let gas = good("periodic_gas.toml");
+    let Arrangement::Lattice(lattice) = &gas.particles[0].arrangement else { panic!("a lattice") };
+    let sites: Vec<_> = lattice.sites().collect();
+    assert_eq!((sites.len(), gas.particles[0].count), (2000, 2000));
+    assert_eq!(sites[0].to_array(), [0.5e-3, 0.5e-3, 0.5e-3]);
+    assert_eq!(sites[1].to_array(), [1.5e-3, 0.5e-3, 0.5e-3]);
+    assert_eq!(sites[20].to_array(), [0.5e-3, 1.5e-3, 0.5e-3]);
+    // Up to the rounding of coordinates.
+    let last = sites[1999] - [19.5e-3, 19.5e-3, 4.5e-3].into();
+    assert!(last.norm() < 1e-16);
+    assert_eq!(gas.domain.unwrap().periodic, [true; 3]);
+    assert_eq!(gas.particles[1].radius.as_ref().unwrap().limits(), (1e-4, 2e-4));
+}
+
+#[test]
+fn a_box_has_no_walls_where_space_repeats_or_a_face_is_open() {
+    let hopper = good("hopper.toml");
+    let names: Vec<&str> = hopper.walls.iter().map(|wall| wall.name.as_str()).collect();
+    assert_eq!(names, ["x-low", "x-high", "z-low", "ramp", "lid"]);
+    let ramp = &hopper.walls[hopper.wall("ramp").unwrap()];
+    // Up to rounding of the division by the length.
+    assert!((ramp.normal.norm() - 1.0).abs() < 1e-15);
+    assert_eq!(hopper.walls[4].area, Some(5e-4));
+    assert_eq!((hopper.stages[0].gravity.z, hopper.stages[1].gravity.z), (-9.81, 0.0));
+}
+
+#[test]
+fn stages_switch_laws_and_parameters() {
+    let scenario = good("switching.toml");
+    let grains = |stage: usize| scenario.stages[stage].contacts[0].model;
+    let Normal::Linear(_) = scenario.contacts[0].model.normal else { panic!("linear at first") };
+    let Normal::Luding(first) = grains(0).normal else { panic!("then Luding") };
+    assert_eq!((first.k1, first.kp, first.kc), (200.0, 400.0, 0.0));
+    let Normal::Luding(second) = grains(1).normal else { panic!("still Luding") };
+    assert_eq!((second.k1, second.kp), (200.0, 450.0));
+    assert!(matches!(grains(1).composition.viscosity, Viscosity::Constant(_)));
+    assert_eq!(grains(1).composition.sliding.unwrap().dynamic_coefficient, 0.5);
+    assert!(matches!(grains(2).composition.viscosity, Viscosity::None(_)));
+    assert_eq!(grains(3).normal, scenario.contacts[0].model.normal);
+    let plate = |stage: usize| match scenario.stages[stage].contacts[1].model.normal {
+        Normal::Luding(law) => law.kc,
+        Normal::Linear(_) => panic!("Luding"),
+    };
+    assert_eq!((plate(0), plate(1), plate(3)), (100.0, 0.0, 0.0));
+    assert_eq!((scenario.stages[0].background.drag, scenario.stages[3].background.drag), (0.0, 1e-6));
+    assert_eq!(scenario.stages[2].time, TimeStep::Fixed(2e-6));
+    assert_eq!(scenario.stages[3].time, TimeStep::default());
+}
+
+#[test]
+fn positions_come_from_files_beside_the_scenario() {
+    let scenario = good("switching.toml");
+    let Arrangement::File { grains, path } = &scenario.particles[0].arrangement else { panic!("a file") };
+    assert!(path.is_absolute());
+    assert_eq!((grains.len(), grains[1].radius, grains[1].velocity.unwrap().z), (2, Some(1.5e-4), -1.0));
+    assert_eq!((&scenario.particles[0].radius, scenario.particles[0].count), (&None, 2));
+    assert!(scenario.particles[1].radius.is_some());
+}
