@@ -1,0 +1,80 @@
+//! What theory says of a collision, where a closed form covers it.
+
+use super::outcome::Regime;
+use super::problem::Problem;
+use pulvis_contact::normal::NormalResponse;
+use pulvis_contact::theory::{self, LinearSpringDashpot};
+use pulvis_contact::{Normal, NormalLaw, Viscosity};
+use pulvis_input::collision::{CollisionCase, luding_pair};
+
+/// The closed form of a collision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClosedForm {
+    /// How it ends.
+    pub regime: Regime,
+    /// Coefficient of restitution [1].
+    pub restitution: f64,
+    /// Largest overlap [m].
+    pub overlap_max: f64,
+    /// Where it ends, as [`super::Outcome::overlap_end`] [m].
+    pub overlap_end: f64,
+    /// Time from touch to opening [s].
+    pub contact_duration: Option<f64>,
+    /// Energy lost until the end [J].
+    pub energy_dissipated: f64,
+}
+
+/// The closed form of a collision: of the Luding and the linear law without dashpot and with any
+/// attraction, of elastic contacts with a constant dashpot and no attraction.
+pub fn closed_form(case: &CollisionCase) -> Option<ClosedForm> {
+    let problem = Problem::new(case);
+    let pair = luding_pair(&case.contact, &problem.pair)?;
+    let dashpot = dashpot(&problem)?;
+    if dashpot == 0.0 {
+        let result = pair.restitution(case.velocity);
+        let rebound = result.regime == theory::Regime::Rebound;
+        return Some(ClosedForm {
+            regime: if rebound { Regime::Rebound } else { Regime::Stick },
+            restitution: result.value,
+            overlap_max: result.overlap_max,
+            overlap_end: result.overlap_end,
+            contact_duration: pair.contact_duration(pair.touch_velocity(case.velocity)),
+            energy_dissipated: result.energy_dissipated,
+        });
+    }
+    let parameters = pair.parameters();
+    let elastic = parameters.kp == parameters.k1 && parameters.kc == 0.0;
+    if !elastic || parameters.adhesion_force > 0.0 {
+        return None;
+    }
+    let oscillator = LinearSpringDashpot::new(parameters.k1, dashpot, parameters.reduced_mass).ok()?;
+    let restitution = oscillator.restitution();
+    let duration = oscillator.contact_duration();
+    Some(ClosedForm {
+        regime: if restitution > 0.0 { Regime::Rebound } else { Regime::Stick },
+        restitution,
+        overlap_max: oscillator.overlap_max(case.velocity),
+        overlap_end: 0.0,
+        contact_duration: duration.is_finite().then_some(duration),
+        energy_dissipated: problem.kinetic(case.velocity) * (1.0 - restitution * restitution),
+    })
+}
+
+/// The coefficient of all dashpots if it is a constant [kg/s].
+fn dashpot(problem: &Problem<'_>) -> Option<f64> {
+    let own = match problem.contact.normal {
+        Normal::Linear(law) => law.dashpot(&problem.pair),
+        Normal::Luding(law) => law.dashpot(&problem.pair),
+    };
+    let viscosity = problem.contact.composition.viscosity;
+    let largest = viscosity.largest_coefficient(&problem.pair);
+    if largest == 0.0 {
+        return Some(own);
+    }
+    match viscosity {
+        Viscosity::Constant(_) | Viscosity::Restitution(_) => {
+            Some(own + viscosity.coefficient(&problem.pair, 1.0, &NormalResponse::default()))
+        }
+        _ => None,
+    }
+}

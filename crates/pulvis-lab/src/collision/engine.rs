@@ -1,0 +1,287 @@
+//! The collision as the engine integrates it: two real particles, or one and a wall, in a simulation
+//! with steps of one length.
+
+use super::error::CollisionError;
+use super::outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
+use super::problem::Problem;
+use pulvis_contact::{Memory, NormalLaw};
+use pulvis_core::walls::Wall;
+use pulvis_core::{Background, Domain, Interactions, Particle, Setup, Simulation};
+use pulvis_input::collision::{Bodies, Sphere};
+use pulvis_math::Vector3;
+
+/// Steps after which a collision is given up.
+const MOST_STEPS: u64 = 50_000_000;
+
+/// A pair with less than this part of its kinetic energy, and as little elastic energy about the
+/// force-free point, is at rest.
+const AT_REST: f64 = 1e-24;
+
+/// Collides two bodies in the engine, with `steps_per_contact` steps in the shortest contact time.
+///
+/// # Errors
+/// The engine refuses the time step or loses a particle, or the motion does not end.
+pub(super) fn collide<N: NormalLaw>(
+    law: N,
+    problem: &Problem<'_>,
+    steps_per_contact: f64,
+    observation: &Observation,
+) -> Result<Collision, CollisionError> {
+    let time_step = problem.shortest_time / steps_per_contact;
+    let mut run = Run::new(law, problem, time_step, observation)?;
+    while !run.over {
+        run.step()?;
+    }
+    Ok(run.finish())
+}
+
+/// Where the bodies are, seen along the line of centres.
+#[derive(Clone, Copy, Debug, Default)]
+struct Instant {
+    time: f64,
+    overlap: f64,
+    velocity: f64,
+    force: f64,
+}
+
+/// A collision under way.
+struct Run<'p, N: NormalLaw> {
+    law: N,
+    problem: &'p Problem<'p>,
+    observation: &'p Observation,
+    simulation: Simulation,
+    now: Instant,
+    before: Instant,
+    overlap_max: f64,
+    touch_time: Option<f64>,
+    opening_time: Option<f64>,
+    stop: Option<Outcome>,
+    end_time: f64,
+    next_sample: usize,
+    course: Vec<Sample>,
+    over: bool,
+}
+
+impl<'p, N: NormalLaw> Run<'p, N> {
+    fn new(
+        law: N,
+        problem: &'p Problem<'p>,
+        time_step: f64,
+        observation: &'p Observation,
+    ) -> Result<Self, CollisionError> {
+        let mut run = Self {
+            law,
+            problem,
+            observation,
+            simulation: Simulation::new(setup(problem, time_step, observation.phase))?,
+            now: Instant::default(),
+            before: Instant::default(),
+            overlap_max: 0.0,
+            touch_time: None,
+            opening_time: None,
+            stop: None,
+            end_time: f64::INFINITY,
+            next_sample: 0,
+            course: Vec::new(),
+            over: false,
+        };
+        run.now = run.look();
+        run.record();
+        Ok(run)
+    }
+
+    fn step(&mut self) -> Result<(), CollisionError> {
+        if self.simulation.steps() >= MOST_STEPS {
+            let (velocity, steps, time) = (self.problem.velocity, self.simulation.steps(), self.now.time);
+            return Err(CollisionError::TooLong { velocity, steps, time });
+        }
+        self.simulation.step()?;
+        self.before = self.now;
+        self.now = self.look();
+        self.record();
+        self.judge();
+        Ok(())
+    }
+
+    /// Reads the state off the simulation.
+    fn look(&self) -> Instant {
+        let particles = self.simulation.particles();
+        let rows = particles.rows_by_id();
+        let (position, velocity, force) = (particles.positions(), particles.velocities(), particles.forces());
+        let i = rows[0];
+        let (overlap, rate) = match self.problem.bodies {
+            Bodies::Pair([first, second]) => {
+                let j = rows[1];
+                let distance = position[i].x - position[j].x;
+                (first.radius + second.radius - distance, velocity[j].x - velocity[i].x)
+            }
+            Bodies::Wall(sphere) => (sphere.radius - position[i].x, -velocity[i].x),
+        };
+        Instant { time: self.simulation.time(), overlap, velocity: rate, force: force[i].x }
+    }
+
+    /// Looks for touch, turning points, sticking and the end.
+    fn judge(&mut self) {
+        let (before, now) = (self.before, self.now);
+        self.overlap_max = self.overlap_max.max(now.overlap);
+        let crossing = || {
+            let share = before.overlap / (before.overlap - now.overlap);
+            before.time + share * (now.time - before.time)
+        };
+        if before.overlap <= 0.0 && now.overlap > 0.0 {
+            self.touch_time.get_or_insert_with(crossing);
+        } else if before.overlap > 0.0 && now.overlap <= 0.0 {
+            self.opening_time.get_or_insert_with(crossing);
+        }
+        if self.touch_time.is_none() {
+            return;
+        }
+        if before.velocity > 0.0 && now.velocity <= 0.0 {
+            self.overlap_max = self.overlap_max.max(self.turning_overlap());
+        }
+        let turned = before.velocity < 0.0 && now.velocity >= 0.0;
+        if self.stop.is_none() && (turned || self.at_rest()) {
+            self.stop = Some(self.outcome(Regime::Stick));
+            self.end_time = now.time + self.observation.time_after_sticking;
+        }
+        let gone = now.overlap <= -self.problem.reach() && now.velocity < 0.0;
+        self.over = gone || now.time >= self.end_time;
+    }
+
+    /// The overlap at a turning point within the last step, taking the acceleration as constant [m].
+    fn turning_overlap(&self) -> f64 {
+        let (before, now) = (self.before, self.now);
+        let share = before.velocity / (before.velocity - now.velocity);
+        before.overlap + 0.5 * before.velocity * share * (now.time - before.time)
+    }
+
+    fn at_rest(&self) -> bool {
+        let least = AT_REST * self.problem.kinetic(self.problem.velocity);
+        let squared = self.now.force * self.now.force;
+        self.now.overlap > 0.0
+            && self.problem.kinetic(self.now.velocity) < least
+            && squared < least * self.problem.stiffness_scale()
+    }
+
+    fn outcome(&mut self, regime: Regime) -> Outcome {
+        let ledger = self.simulation.ledger();
+        let before = self.problem.kinetic(self.problem.velocity);
+        let rebound = regime == Regime::Rebound;
+        let turned = self.before.velocity < 0.0 && self.now.velocity >= 0.0;
+        let stop = if turned { self.turning_overlap() } else { self.now.overlap };
+        Outcome {
+            regime,
+            stop_branch: (!rebound).then(|| self.branch(self.before.overlap)),
+            restitution: if rebound { -self.now.velocity / self.problem.velocity } else { 0.0 },
+            overlap_max: self.overlap_max,
+            overlap_end: if rebound { 0.0 - self.problem.reach() } else { stop },
+            contact_duration: self.opening_time.zip(self.touch_time).map(|(end, start)| end - start),
+            energy_dissipated: ledger.dissipated(),
+            energy_error: -ledger.closing_error() / before.max(ledger.scale),
+        }
+    }
+
+    /// The branch on which the bodies are, or that of the attraction where they are apart.
+    fn branch(&self, overlap: f64) -> &'static str {
+        if overlap <= 0.0 {
+            return self.problem.contact.composition.noncontact.branch(overlap, 1.0).1;
+        }
+        self.law.branch(&self.problem.pair, overlap, &self.memory(self.remembered())).1
+    }
+
+    /// The first column of the law's memory.
+    fn remembered(&self) -> f64 {
+        let mut memory = 0.0;
+        self.simulation.for_each_contact(&mut |contact| memory = contact.memory);
+        memory
+    }
+
+    fn memory(&self, first_column: f64) -> N::Memory<f64> {
+        N::Memory::<f64>::load(|column| if column == 0 { first_column } else { 0.0 })
+    }
+
+    fn finish(mut self) -> Collision {
+        let outcome = match self.stop {
+            Some(outcome) => outcome,
+            None => self.outcome(Regime::Rebound),
+        };
+        Collision { outcome, course: self.course }
+    }
+
+    /// Keeps this instant if it is asked for; the steps are not cut to fit.
+    fn record(&mut self) {
+        match &self.observation.sampling {
+            Sampling::None => return,
+            Sampling::Every(_) => {}
+            Sampling::At(times) => match times.get(self.next_sample) {
+                Some(next) if *next <= self.now.time => self.next_sample += 1,
+                _ => return,
+            },
+        }
+        let sample = self.sample();
+        self.course.push(sample);
+    }
+
+    fn sample(&mut self) -> Sample {
+        let ledger = self.simulation.ledger();
+        let Instant { time, overlap, velocity, force } = self.now;
+        let first = self.remembered();
+        let through_origin = matches!(self.branch(overlap), "k1" | "kc") && overlap > 0.0;
+        let plastic = if through_origin {
+            let mut memory = self.memory(first);
+            0.5 * overlap * self.law.respond(&self.problem.pair, overlap, &mut memory).force
+        } else {
+            ledger.elastic_normal
+        };
+        let remembers = N::ENTRY.memory.first().is_some_and(|name| name.starts_with("overlap_max"));
+        Sample {
+            time,
+            overlap,
+            velocity,
+            force,
+            delta_max: if remembers { first } else { self.overlap_max },
+            kinetic: self.problem.kinetic(velocity),
+            potential_available: ledger.elastic_normal,
+            potential_plastic: plastic,
+            potential_attraction: ledger.adhesive,
+            dissipated: ledger.dissipated(),
+        }
+    }
+}
+
+/// The bodies on their way, `phase` of a step before they come within reach, their centre of mass at rest.
+fn setup(problem: &Problem<'_>, time_step: f64, phase: f64) -> Setup {
+    let along = |x: f64| Vector3::new(x, 0.0, 0.0);
+    let particle = |sphere: &Sphere, position: f64, velocity: f64| Particle {
+        material: 0,
+        radius: sphere.radius,
+        mass: sphere.mass,
+        position: along(position),
+        velocity: along(velocity),
+        spin: along(0.0),
+    };
+    let velocity = problem.velocity;
+    let gap = phase * velocity * time_step - problem.start_overlap();
+    let mut interactions = Interactions::new(1);
+    interactions.set(0, 0, *problem.contact);
+    let (particles, walls) = match problem.bodies {
+        Bodies::Pair([i, j]) => {
+            let mass = i.mass + j.mass;
+            let first = particle(i, i.radius + gap, -velocity * j.mass / mass);
+            let second = particle(j, -j.radius, velocity * i.mass / mass);
+            (vec![first, second], vec![])
+        }
+        Bodies::Wall(sphere) => {
+            let wall = Wall::fixed("wall", 0, along(0.0), along(1.0));
+            (vec![particle(sphere, sphere.radius + gap, -velocity)], vec![wall])
+        }
+    };
+    Setup {
+        particles,
+        interactions,
+        walls,
+        domain: Domain::unbounded(),
+        background: Background::default(),
+        time_step,
+    }
+}

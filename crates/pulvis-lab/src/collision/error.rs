@@ -1,0 +1,38 @@
+//! What can go wrong in a collision.
+
+use pulvis_core::{SetupError, StepError};
+use thiserror::Error;
+
+/// A collision that cannot be computed.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum CollisionError {
+    /// The motion takes more steps than any collision should.
+    #[error(
+        "the collision at {velocity} m/s is not over after {steps} steps ({time:.3e} s); is the dashpot far beyond critical damping?"
+    )]
+    TooLong {
+        /// Relative speed before the collision [m/s].
+        velocity: f64,
+        /// Steps taken [1].
+        steps: u64,
+        /// Time simulated [s].
+        time: f64,
+    },
+    /// The state is no longer a number.
+    #[error(
+        "the collision at {velocity} m/s left the range of numbers at {time:.3e} s; check the magnitudes of masses and stiffnesses"
+    )]
+    NotFinite {
+        /// Relative speed before the collision [m/s].
+        velocity: f64,
+        /// Time simulated [s].
+        time: f64,
+    },
+    /// The engine cannot be set up for this collision.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The engine lost a particle.
+    #[error(transparent)]
+    Step(#[from] StepError),
+}

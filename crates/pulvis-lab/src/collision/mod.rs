@@ -1,0 +1,80 @@
+//! Head-on collisions of two spheres, or of a sphere and a plane.
+//!
+//! The relative motion m_r d²δ/dt² = −f is integrated for any contact model of the catalogue, in one of
+//! two ways: *exact* stops at every change of branch and is good to about 1e-12; *engine* takes steps of
+//! one length as the engine does, so that the error of a time step can be seen. [`closed_form`] says
+//! what theory expects, where it has a formula.
+
+mod closed_form;
+mod dynamics;
+mod engine;
+mod error;
+mod exact;
+mod extrapolation;
+mod outcome;
+mod problem;
+mod table;
+
+pub use closed_form::{ClosedForm, closed_form};
+pub use error::CollisionError;
+pub use outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
+pub use table::{COLUMNS, TRAJECTORY_COLUMNS, result_table, trajectory_table};
+
+use problem::Problem;
+use pulvis_contact::{NormalLaw, NormalLawVisitor};
+use pulvis_input::collision::{CollisionCase, CollisionScenario, Method};
+
+/// Computes one collision.
+///
+/// # Errors
+/// The motion does not end, or leaves the range of numbers.
+pub fn collide(case: &CollisionCase, observation: &Observation) -> Result<Collision, CollisionError> {
+    let problem = Problem::new(case);
+    case.contact.normal.accept(Collide { problem: &problem, method: case.method, observation })
+}
+
+/// A collision for a law that is only known at run time.
+struct Collide<'c> {
+    problem: &'c Problem<'c>,
+    method: Method,
+    observation: &'c Observation,
+}
+
+impl NormalLawVisitor for Collide<'_> {
+    type Output = Result<Collision, CollisionError>;
+
+    fn visit<N: NormalLaw>(self, law: N) -> Self::Output {
+        match self.method {
+            Method::Exact => exact::collide(law, self.problem, self.observation),
+            Method::Engine { steps_per_contact } => {
+                engine::collide(law, self.problem, steps_per_contact, self.observation)
+            }
+        }
+    }
+}
+
+/// One collision of a sweep, with what theory says of it.
+#[derive(Clone, Debug)]
+pub struct SweepPoint {
+    /// The collision that was asked for.
+    pub case: CollisionCase,
+    /// Its end.
+    pub collision: Collision,
+    /// The closed form, where there is one.
+    pub theory: Option<ClosedForm>,
+}
+
+/// Computes all collisions of a scenario.
+///
+/// # Errors
+/// The first collision that cannot be computed.
+pub fn sweep(scenario: &CollisionScenario, sampling: &Sampling) -> Result<Vec<SweepPoint>, CollisionError> {
+    let time_after_sticking = scenario.time_after_sticking;
+    let observation =
+        Observation { sampling: sampling.clone(), time_after_sticking, ..Observation::default() };
+    let point = |case: &CollisionCase| {
+        let collision = collide(case, &observation)?;
+        Ok(SweepPoint { case: case.clone(), collision, theory: closed_form(case) })
+    };
+    scenario.cases.iter().map(point).collect()
+}

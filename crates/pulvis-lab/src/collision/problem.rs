@@ -1,0 +1,49 @@
+//! One collision, as both methods see it.
+
+use pulvis_contact::{ContactModel, Pair};
+use pulvis_input::collision::{Bodies, CollisionCase};
+
+/// One collision with what follows from its bodies and laws.
+pub(super) struct Problem<'c> {
+    pub contact: &'c ContactModel,
+    pub bodies: &'c Bodies,
+    pub pair: Pair,
+    /// Relative speed outside the range of all forces [m/s].
+    pub velocity: f64,
+    /// Shortest duration of any motion of the contact [s].
+    pub shortest_time: f64,
+}
+
+impl<'c> Problem<'c> {
+    pub fn new(case: &'c CollisionCase) -> Self {
+        let (i, j) = case.bodies.masses_and_radii();
+        Self {
+            contact: &case.contact,
+            bodies: &case.bodies,
+            pair: case.bodies.pair(),
+            velocity: case.velocity,
+            shortest_time: case.contact.shortest_contact_time(i, j),
+        }
+    }
+
+    /// Kinetic energy of the relative motion [J].
+    pub fn kinetic(&self, velocity: f64) -> f64 {
+        0.5 * self.pair.reduced_mass * velocity * velocity
+    }
+
+    /// How far beyond touching the contact acts [m].
+    pub fn reach(&self) -> f64 {
+        self.contact.reach()
+    }
+
+    /// Where the bodies begin to feel each other on approach: an attraction that remembers touch is
+    /// not felt before it [m].
+    pub fn start_overlap(&self) -> f64 {
+        if self.contact.composition.noncontact.remembers_touch() { 0.0 } else { 0.0 - self.reach() }
+    }
+
+    /// The stiffness that belongs to the shortest time, m_r (π/t)² [N/m].
+    pub fn stiffness_scale(&self) -> f64 {
+        self.pair.reduced_mass * (std::f64::consts::PI / self.shortest_time).powi(2)
+    }
+}
