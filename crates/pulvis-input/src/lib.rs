@@ -6,7 +6,9 @@
 //!   replace values;
 //! - [`reader`], [`value_reader`], [`shape`], [`list`]: tables are walked key by key, and *all*
 //!   mistakes are collected; [`parameters`] does so for the laws of the catalogue;
-//! - [`error`], [`problem`]: where it is wrong, what was found, what was expected, what to do.
+//! - [`error`], [`problem`]: where it is wrong, what was found, what was expected, what to do;
+//! - [`mod@contact`], [`scenario`], [`collision`]: all laws of a contact, the scenario of a run, the
+//!   scenario of a pair collision, each checked as a whole.
 //!
 //! # Example
 //! ```
