@@ -104,10 +104,8 @@ fn the_collisions_of_figure_7_pass_through_the_reference_forces() {
             }
             // On k2 the collision has turned, first at the largest overlap, later on the adhesive branch.
             let elastic = note.ends_with("branch=k2");
-            if elastic && !unloading {
-                if let Some(turn) = turning_points.next() {
-                    law.respond(&pair, turn * limit, &mut memory);
-                }
+            if let Some(turn) = (elastic && !unloading).then(|| turning_points.next()).flatten() {
+                law.respond(&pair, turn * limit, &mut memory);
             }
             unloading = elastic;
             let answer = law.respond(&pair, overlap * limit, &mut memory);

@@ -37,7 +37,7 @@ impl NormalLawVisitor for Suite {
         };
         let dt = dances[0].duration / STEPS as f64;
         let mut memory = ContactMemory::<Eight, N::Memory<Eight>>::default();
-        let mut memories = vec![ContactMemory::<f64, N::Memory<f64>>::default(); 8];
+        let mut memories = [ContactMemory::<f64, N::Memory<f64>>::default(); 8];
         for step in 0..=STEPS {
             let motions: Vec<PairMotion<f64>> = dances
                 .iter()

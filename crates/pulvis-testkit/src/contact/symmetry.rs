@@ -16,6 +16,7 @@ const STEPS: usize = 60;
 const ROUND_OFF: f64 = 1e-7;
 
 type Performance = Vec<(ContactResponse<f64>, Springs)>;
+type Size<'a> = &'a dyn Fn(&(ContactResponse<f64>, Springs)) -> f64;
 
 /// How a contact looks from elsewhere.
 struct View {
@@ -80,9 +81,7 @@ fn as_it_is() -> View {
 /// Asserts that the contact seen by `view` is the view of the contact.
 fn looks_the_same(model: &ContactModel, dance: &Dance, view: &View) {
     let (direct, seen) = (perform(model, dance, &as_it_is()), perform(model, dance, view));
-    let largest = |size: &dyn Fn(&(ContactResponse<f64>, Springs)) -> f64| {
-        ROUND_OFF * direct.iter().map(size).fold(1e-290, f64::max)
-    };
+    let largest = |size: Size| ROUND_OFF * direct.iter().map(size).fold(1e-290, f64::max);
     let force = largest(&|(answer, _)| answer.force.norm());
     let torque = largest(&|(answer, _)| answer.torque_i.norm().max(answer.torque_j.norm()));
     let spring = largest(&|(_, s)| s.sliding.norm().max(s.rolling.norm()).max(s.torsion.abs()));

@@ -14,7 +14,7 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number<N: NormalLaw>(law: N, draw
         reduced_mass: Eight::from_lanes(|lane| pairs[lane].reduced_mass),
         harmonic_radius: Eight::from_lanes(|lane| pairs[lane].harmonic_radius),
     };
-    let mut memories = vec![<N::Memory<f64>>::default(); 8];
+    let mut memories = [<N::Memory<f64>>::default(); 8];
     let mut memory = <N::Memory<Eight>>::default();
     let reach = draw.log_between(1e-4, 0.3);
     for _ in 0..40 {
