@@ -1,0 +1,30 @@
+//! One file a command; the list is here.
+
+mod check;
+mod run;
+mod words;
+
+use std::process::ExitCode;
+
+use clap::Subcommand;
+
+use crate::failure::Failure;
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Checks a scenario and says what the run will be like, without running it
+    Check(check::Arguments),
+    /// Runs the stages of a scenario
+    Run(run::Arguments),
+}
+
+impl Command {
+    /// Does it.
+    pub fn execute(&self) -> Result<ExitCode, Failure> {
+        match self {
+            Self::Check(arguments) => check::execute(arguments),
+            Self::Run(arguments) => run::execute(arguments),
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! What is measured of a running simulation: one row of the time series.
+
+use pulvis_core::{ContactPartner, Simulation};
+use pulvis_input::scenario::Scenario;
+use pulvis_math::Vector3;
+
+use super::stage::{length, wall_force, wall_stress};
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Takes measurements; the columns are fixed for the whole run.
+#[derive(Clone, Debug)]
+pub struct Measure {
+    columns: Vec<String>,
+    scaled: Option<Scaled>,
+}
+
+/// The reference of dimensionless columns.
+#[derive(Clone, Copy, Debug)]
+struct Scaled {
+    length: f64,
+    stiffness: f64,
+    /// Lengths L0 of the sample along x, y, z [m].
+    reference: [Option<f64>; 3],
+}
+
+impl Measure {
+    /// What is to be measured of a scenario, which starts as `simulation` is.
+    pub fn new(scenario: &Scenario, simulation: &Simulation) -> Self {
+        let mut columns: Vec<String> = ["step", "time", "stage"].map(str::to_owned).into();
+        let blank = pulvis_core::Ledger::default();
+        columns.extend(blank.accounts().iter().map(|(name, _)| (*name).to_owned()));
+        let totals = ["kinetic", "elastic", "dissipated", "closing_error", "relative_error"];
+        columns.extend(totals.map(str::to_owned));
+        let contacts = ["contacts", "wall_contacts", "coordination", "overlap_max", "solid_fraction"];
+        columns.extend(contacts.map(str::to_owned));
+        columns.extend(["stress_xx", "stress_yy", "stress_zz"].map(str::to_owned));
+        for axis in AXES {
+            columns.extend(["length", "strain", "wall_stress"].map(|name| format!("{name}_{axis}")));
+        }
+        for wall in &scenario.walls {
+            columns.extend(["position", "force"].map(|name| format!("{name}_{}", wall.name)));
+        }
+        let scaled = scenario.output.dimensionless.map(|plan| {
+            columns.extend(AXES.iter().flat_map(|axis| [format!("D_{axis}"), format!("F_{axis}")]));
+            Scaled { length: plan.length, stiffness: plan.stiffness, reference: [None; 3] }
+        });
+        let mut measure = Self { columns, scaled };
+        measure.take_reference(scenario, simulation);
+        measure
+    }
+
+    /// The present lengths of the sample become L0 of the dimensionless displacement.
+    pub fn take_reference(&mut self, scenario: &Scenario, simulation: &Simulation) {
+        if let Some(scaled) = &mut self.scaled {
+            scaled.reference = [0, 1, 2].map(|axis| length(scenario, simulation, axis));
+        }
+    }
+
+    /// The names of the columns. Energies [J], stresses [Pa], lengths [m], forces [N], compression
+    /// positive; `position_*` is the place of a plane along its normal.
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// The place of a column.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column == name)
+    }
+
+    /// One row: the present state in stage number `stage`. What does not exist is NaN.
+    pub fn row(
+        &self,
+        scenario: &Scenario,
+        simulation: &mut Simulation,
+        stage: usize,
+        start_lengths: [Option<f64>; 3],
+    ) -> Vec<f64> {
+        let ledger = simulation.ledger();
+        let mut row = vec![simulation.steps() as f64, simulation.time(), stage as f64];
+        row.extend(ledger.accounts().iter().map(|(_, value)| value));
+        let error = ledger.closing_error();
+        row.extend([ledger.kinetic(), ledger.elastic(), ledger.dissipated(), error, ledger.relative_error()]);
+        let lengths = [0, 1, 2].map(|axis| length(scenario, simulation, axis));
+        let volume = lengths.iter().map(|length| length.unwrap_or(f64::NAN)).product::<f64>();
+        let contacts = ContactSums::of(simulation);
+        let count = simulation.particles().len() as f64;
+        row.extend([
+            contacts.pairs,
+            contacts.at_walls,
+            (2.0 * contacts.pairs + contacts.at_walls) / count,
+            contacts.overlap_max,
+            simulation.particles().total_volume() / volume,
+        ]);
+        row.extend(contacts.force_times_branch.to_array().map(|sum| sum / volume));
+        for axis in 0..3 {
+            let strain = lengths[axis].zip(start_lengths[axis]).map(|(now, start)| now / start - 1.0);
+            let stress = wall_stress(scenario, simulation, axis);
+            row.extend([lengths[axis], strain, stress].map(|value| value.unwrap_or(f64::NAN)));
+        }
+        for (place, wall) in simulation.walls().iter().enumerate() {
+            row.extend([wall.offset(), -simulation.wall_force(place).dot(wall.normal)]);
+        }
+        if let Some(scaled) = &self.scaled {
+            for axis in 0..3 {
+                let displacement = lengths[axis].zip(scaled.reference[axis]);
+                let force = wall_force(scenario, simulation, axis);
+                row.push(displacement.map_or(f64::NAN, |(now, start)| (now - start) / scaled.length));
+                row.push(force.map_or(f64::NAN, |force| force / (scaled.stiffness * scaled.length)));
+            }
+        }
+        row
+    }
+}
+
+/// Sums over all contacts.
+#[derive(Clone, Copy, Debug, Default)]
+struct ContactSums {
+    pairs: f64,
+    at_walls: f64,
+    overlap_max: f64,
+    /// Σ f_k l_k for each axis k over all contacts, compression positive [J]: over the volume,
+    /// the diagonal of the contacts' stress.
+    force_times_branch: Vector3,
+}
+
+impl ContactSums {
+    fn of(simulation: &Simulation) -> Self {
+        let mut sums = Self::default();
+        simulation.for_each_contact(&mut |contact| {
+            let touching = f64::from(u8::from(contact.overlap > 0.0));
+            sums.overlap_max = sums.overlap_max.max(contact.overlap);
+            let branch = contact.centre_first - contact.centre_second;
+            let (force, [x, y, z]) = (contact.force, branch.to_array());
+            sums.force_times_branch += Vector3::new(force.x * x, force.y * y, force.z * z);
+            match contact.second {
+                ContactPartner::Particle(_) => sums.pairs += touching,
+                ContactPartner::Wall(_) => sums.at_walls += touching,
+            }
+        });
+        sums
+    }
+}

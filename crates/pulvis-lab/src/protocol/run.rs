@@ -1,0 +1,364 @@
+//! Runs the stages of a scenario and writes what they give.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use pulvis_core::Simulation;
+use pulvis_core::walls::WallMotion;
+use pulvis_input::scenario::{Interval, Scenario, Snapshots as SnapshotPlan, WallControl};
+use pulvis_io::table::TimeSeriesWriter;
+
+use super::error::{PrepareError, RunError};
+use super::folder;
+use super::measure::Measure;
+use super::report::{self, Series};
+use super::setup::{Prepared, StagePlan, motion, prepare};
+use super::snapshots::Snapshots;
+use super::stage::{Ending, StageWatch, length};
+
+/// Where a run writes, and how.
+#[derive(Clone, Debug)]
+pub struct RunOptions {
+    /// Output folder; the scenario's own where `None`.
+    pub folder: Option<PathBuf>,
+    /// Whether to write over a run that is in the folder.
+    pub force: bool,
+    /// Version of the program, for the record.
+    pub version: String,
+}
+
+/// How far a run has come.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    /// Name of the stage.
+    pub stage: String,
+    /// Number of the stage, from 1.
+    pub number: usize,
+    /// Number of stages.
+    pub stages: usize,
+    /// Simulated time [s].
+    pub time: f64,
+    /// Steps done.
+    pub steps: u64,
+    /// Time steps per second of wall-clock time.
+    pub steps_per_second: f64,
+    /// Progress of the stage from 0 to 1, where its duration is known.
+    pub fraction: Option<f64>,
+    /// Wall-clock time that the stage still needs [s], where its duration is known.
+    pub remaining: Option<f64>,
+    /// Relative closing error of the energy ledger [1].
+    pub energy_error: f64,
+    /// Set when the stage has ended: why.
+    pub ending: Option<Ending>,
+}
+
+/// What came of a stage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StageResult {
+    /// Name of the stage.
+    pub name: String,
+    /// Why it ended.
+    pub ending: Ending,
+    /// Simulated time at its end [s].
+    pub time: f64,
+    /// Steps done at its end.
+    pub steps: u64,
+}
+
+/// What came of a run.
+#[derive(Clone, Debug)]
+pub struct RunSummary {
+    /// The output folder.
+    pub folder: PathBuf,
+    /// The stages that ran.
+    pub stages: Vec<StageResult>,
+    /// Number of particles.
+    pub particles: usize,
+    /// Steps done.
+    pub steps: u64,
+    /// Wall-clock time [s].
+    pub wall_clock: f64,
+    /// Relative closing error of the energy ledger at the end [1].
+    pub energy_error: f64,
+    /// The largest relative closing error among all rows of the time series [1].
+    pub energy_error_max: f64,
+    /// Pictures that were drawn.
+    pub pictures: Vec<PathBuf>,
+}
+
+impl RunSummary {
+    /// Whether the user stopped the run.
+    pub fn interrupted(&self) -> bool {
+        self.stages.last().is_some_and(|stage| stage.ending == Ending::Interrupted)
+    }
+}
+
+/// Runs a scenario. `watch` is told about the progress some times a second; a true `stop` ends the
+/// run after the present step with all files complete.
+pub fn run(
+    scenario: &Scenario,
+    options: &RunOptions,
+    stop: &AtomicBool,
+    watch: &mut dyn FnMut(&Progress),
+) -> Result<RunSummary, RunError> {
+    let prepared = prepare(scenario)?;
+    let folder = options.folder.clone().unwrap_or_else(|| scenario.output.folder.clone());
+    folder::open(&folder, options.force)?;
+    let resolved = scenario.to_resolved_toml(&options.version);
+    let record = folder.join("run.toml");
+    std::fs::write(&record, resolved).map_err(|source| PrepareError::Folder { folder: record, source })?;
+    let mut run = Run::begin(scenario, prepared, &folder)?;
+    let mut stages = Vec::new();
+    for number in 0..scenario.stages.len() {
+        let result = run.stage(number, stop, watch)?;
+        let ending = result.ending;
+        stages.push(result);
+        if ending == Ending::Interrupted {
+            break;
+        }
+    }
+    run.finish(stages, folder.clone())
+}
+
+/// The stage after which displacements count from zero.
+pub(super) fn reference_stage(_scenario: &Scenario) -> Option<usize> {
+    None
+}
+
+/// A run under way.
+struct Run<'a> {
+    scenario: &'a Scenario,
+    simulation: Simulation,
+    plans: Vec<StagePlan>,
+    measure: Measure,
+    writer: TimeSeriesWriter,
+    rows: Vec<Vec<f64>>,
+    snapshots: Option<Snapshots>,
+    folder: &'a Path,
+    began: Instant,
+    rows_due: Due,
+    frames_due: Option<Due>,
+}
+
+/// When something regular happens next.
+#[derive(Clone, Copy, Debug)]
+struct Due {
+    interval: Interval,
+    count: u64,
+}
+
+impl Due {
+    fn new(interval: Interval) -> Self {
+        Self { interval, count: 0 }
+    }
+
+    /// Whether it is time; counts one up if so.
+    fn now(&mut self, simulation: &Simulation) -> bool {
+        let due = match self.interval {
+            Interval::Steps(steps) => simulation.steps() >= (self.count + 1) * steps,
+            Interval::Time(time) => {
+                // Half a step of tolerance: sums of time steps are not exact.
+                simulation.time() + 0.5 * simulation.time_step() >= (self.count + 1) as f64 * time
+            }
+        };
+        self.count += u64::from(due);
+        due
+    }
+}
+
+impl<'a> Run<'a> {
+    fn begin(scenario: &'a Scenario, prepared: Prepared, folder: &'a Path) -> Result<Self, RunError> {
+        let Prepared { simulation, stages: plans, .. } = prepared;
+        let measure = Measure::new(scenario, &simulation);
+        let writer = TimeSeriesWriter::create(&folder.join("timeseries.csv"), measure.columns())?;
+        let (snapshots, frames_due) = match scenario.output.snapshots {
+            SnapshotPlan::Never => (None, None),
+            SnapshotPlan::StageEnds => (Some(Snapshots::create(folder)?), None),
+            SnapshotPlan::Every(interval) => (Some(Snapshots::create(folder)?), Some(Due::new(interval))),
+        };
+        let mut run = Self {
+            scenario,
+            simulation,
+            plans,
+            measure,
+            writer,
+            rows: Vec::new(),
+            snapshots,
+            folder,
+            began: Instant::now(),
+            rows_due: Due::new(scenario.output.timeseries),
+            frames_due,
+        };
+        run.frame()?;
+        Ok(run)
+    }
+
+    /// Runs one stage to its end.
+    fn stage(
+        &mut self,
+        number: usize,
+        stop: &AtomicBool,
+        watch: &mut dyn FnMut(&Progress),
+    ) -> Result<StageResult, RunError> {
+        let scenario = self.scenario;
+        let stage = &scenario.stages[number];
+        self.switch_to(number)?;
+        let mut rules = StageWatch::new(scenario, stage, &self.simulation);
+        let start_lengths = [0, 1, 2].map(|axis| length(scenario, &self.simulation, axis));
+        self.row(number, start_lengths)?;
+        let mut pace = Pace::new(self.simulation.steps());
+        let ending = loop {
+            self.simulation
+                .step()
+                .map_err(|source| RunError::Step { stage: stage.name.clone(), source })?;
+            if self.rows_due.now(&self.simulation) {
+                self.row(number, start_lengths)?;
+            }
+            let simulation = &self.simulation;
+            if self.frames_due.as_mut().is_some_and(|due| due.now(simulation)) {
+                self.frame()?;
+            }
+            if stop.load(Ordering::Relaxed) {
+                break Ending::Interrupted;
+            }
+            if let Some(ending) = rules.ending(&mut self.simulation) {
+                break ending;
+            }
+            if pace.is_due(self.simulation.steps()) {
+                let fraction = rules.progress(&self.simulation);
+                watch(&self.progress(number, &mut pace, fraction, None));
+            }
+        };
+        self.row(number, start_lengths)?;
+        self.frame()?;
+        if reference_stage(scenario) == Some(number) {
+            self.measure.take_reference(scenario, &self.simulation);
+        }
+        watch(&self.progress(number, &mut pace, None, Some(ending)));
+        let (time, steps) = (self.simulation.time(), self.simulation.steps());
+        Ok(StageResult { name: stage.name.clone(), ending, time, steps })
+    }
+
+    fn switch_to(&mut self, number: usize) -> Result<(), RunError> {
+        let plan = &self.plans[number];
+        let simulation = &mut self.simulation;
+        let failed =
+            |source| RunError::Switch { stage: self.scenario.stages[number].name.clone(), source };
+        // What the first stage sets is what the simulation was built with.
+        if number > 0 {
+            let before = &self.plans[number - 1];
+            if before.interactions != plan.interactions {
+                simulation.set_interactions(plan.interactions.clone()).map_err(failed)?;
+            }
+            if before.background != plan.background {
+                simulation.set_background(plan.background);
+            }
+            if before.time_step.to_bits() != plan.time_step.to_bits() {
+                simulation.set_time_step(plan.time_step).map_err(failed)?;
+            }
+        }
+        // A wall that was on its way by a function of time has arrived.
+        for place in 0..simulation.walls().len() {
+            let changed = plan.wall_changes.iter().any(|(wall, _)| *wall == place);
+            if !changed && matches!(simulation.walls()[place].motion, WallMotion::Cosine(_)) {
+                simulation.set_wall_motion(place, WallMotion::Fixed);
+            }
+        }
+        for (place, control) in &plan.wall_changes {
+            simulation.set_wall_motion(*place, motion(control));
+            if matches!(control, WallControl::Removed) {
+                simulation.set_wall_present(*place, false);
+            }
+        }
+        Ok(())
+    }
+
+    fn row(&mut self, stage: usize, start_lengths: [Option<f64>; 3]) -> Result<(), RunError> {
+        let row = self.measure.row(self.scenario, &mut self.simulation, stage + 1, start_lengths);
+        self.writer.row(&row)?;
+        self.rows.push(row);
+        Ok(())
+    }
+
+    fn frame(&mut self) -> Result<(), RunError> {
+        match &mut self.snapshots {
+            Some(snapshots) => Ok(snapshots.write(&self.simulation)?),
+            None => Ok(()),
+        }
+    }
+
+    fn progress(
+        &mut self,
+        number: usize,
+        pace: &mut Pace,
+        fraction: Option<f64>,
+        ending: Option<Ending>,
+    ) -> Progress {
+        let steps_per_second = pace.rate(self.simulation.steps());
+        let elapsed = pace.began.elapsed().as_secs_f64();
+        let remaining = fraction.filter(|&done| done > 0.0).map(|done| elapsed * (1.0 - done) / done);
+        Progress {
+            stage: self.scenario.stages[number].name.clone(),
+            number: number + 1,
+            stages: self.scenario.stages.len(),
+            time: self.simulation.time(),
+            steps: self.simulation.steps(),
+            steps_per_second,
+            fraction,
+            remaining,
+            energy_error: self.simulation.ledger().relative_error(),
+            ending,
+        }
+    }
+
+    fn finish(mut self, stages: Vec<StageResult>, folder: PathBuf) -> Result<RunSummary, RunError> {
+        self.writer.finish()?;
+        let error_column = self.measure.column("relative_error").unwrap_or(0);
+        let errors = self.rows.iter().map(|row| row[error_column].abs());
+        let energy_error_max = errors.fold(0.0, f64::max);
+        let series = Series { measure: &self.measure, rows: &self.rows };
+        let pictures = if self.scenario.output.plots {
+            report::draw(self.scenario, &self.simulation, &series, self.folder)?
+        } else {
+            Vec::new()
+        };
+        Ok(RunSummary {
+            folder,
+            stages,
+            particles: self.simulation.particles().len(),
+            steps: self.simulation.steps(),
+            wall_clock: self.began.elapsed().as_secs_f64(),
+            energy_error: self.simulation.ledger().relative_error(),
+            energy_error_max,
+            pictures,
+        })
+    }
+}
+
+/// Speed, and when to tell about it next.
+struct Pace {
+    began: Instant,
+    told: Instant,
+    told_steps: u64,
+}
+
+impl Pace {
+    fn new(steps: u64) -> Self {
+        Self { began: Instant::now(), told: Instant::now(), told_steps: steps }
+    }
+
+    /// Five times a second, looked at every 16 steps.
+    fn is_due(&self, steps: u64) -> bool {
+        steps.is_multiple_of(16) && self.told.elapsed().as_secs_f64() > 0.2
+    }
+
+    /// Steps per second since it was last told.
+    fn rate(&mut self, steps: u64) -> f64 {
+        let seconds = self.told.elapsed().as_secs_f64();
+        let rate = (steps - self.told_steps) as f64 / seconds.max(1e-9);
+        self.told = Instant::now();
+        self.told_steps = steps;
+        rate
+    }
+}

@@ -1,0 +1,104 @@
+//! Particles and contacts as files for ParaView and OVITO.
+
+use std::path::Path;
+
+use pulvis_core::{ContactPartner, Simulation};
+use pulvis_io::IoError;
+use pulvis_io::vtk::{Column, ContactFrame, ParticleFrame, SeriesWriter};
+
+/// Writes one frame after another into a folder.
+pub(super) struct Snapshots {
+    series: SeriesWriter,
+    last_step: Option<u64>,
+}
+
+impl Snapshots {
+    pub(super) fn create(folder: &Path) -> Result<Self, IoError> {
+        Ok(Self { series: SeriesWriter::create(folder, "")?, last_step: None })
+    }
+
+    /// Writes the present state, unless it has just been written.
+    pub(super) fn write(&mut self, simulation: &Simulation) -> Result<(), IoError> {
+        if self.last_step == Some(simulation.steps()) {
+            return Ok(());
+        }
+        self.last_step = Some(simulation.steps());
+        let contacts = Contacts::of(simulation);
+        let particles = simulation.particles();
+        let rows = particles.rows_by_id();
+        let vectors = |column: &[pulvis_math::Vector3]| -> Vec<[f64; 3]> {
+            rows.iter().map(|&row| column[row].to_array()).collect()
+        };
+        let ids: Vec<i64> = rows.iter().map(|&row| i64::from(particles.ids()[row])).collect();
+        let materials: Vec<i64> = rows.iter().map(|&row| i64::from(particles.materials()[row])).collect();
+        let radii: Vec<f64> = rows.iter().map(|&row| particles.radii()[row]).collect();
+        let [velocities, spins] = [vectors(particles.velocities()), vectors(particles.spins())];
+        let [forces, torques] = [vectors(particles.forces()), vectors(particles.torques())];
+        let coordination = contacts.coordination(ids.len());
+        let positions = vectors(particles.positions());
+        let columns = [
+            Column::integer("id", &ids),
+            Column::integer("type", &materials),
+            Column::scalar("radius", &radii),
+            Column::vector("v", &velocities),
+            Column::vector("omega", &spins),
+            Column::vector("f", &forces),
+            Column::vector("torque", &torques),
+            Column::integer("coordination", &coordination),
+        ];
+        let particle_frame = ParticleFrame { positions: &positions, columns: &columns };
+        let contact_columns = [
+            Column::integer("id1", &contacts.first),
+            Column::integer("id2", &contacts.second),
+            Column::vector("force", &contacts.force),
+            Column::scalar("normal_force", &contacts.normal_force),
+            Column::scalar("overlap", &contacts.overlap),
+            Column::scalar("overlap_max", &contacts.memory),
+        ];
+        let contact_frame = ContactFrame { ends: &contacts.ends, columns: &contact_columns };
+        self.series.write(simulation.time(), &particle_frame, &contact_frame).map(|_| ())
+    }
+}
+
+/// All contacts, column by column. The second id of a wall contact is −1 − the wall's place.
+#[derive(Default)]
+struct Contacts {
+    ends: Vec<[[f64; 3]; 2]>,
+    first: Vec<i64>,
+    second: Vec<i64>,
+    force: Vec<[f64; 3]>,
+    normal_force: Vec<f64>,
+    overlap: Vec<f64>,
+    memory: Vec<f64>,
+}
+
+impl Contacts {
+    fn of(simulation: &Simulation) -> Self {
+        let mut contacts = Self::default();
+        simulation.for_each_contact(&mut |contact| {
+            contacts.ends.push([contact.centre_first.to_array(), contact.centre_second.to_array()]);
+            contacts.first.push(i64::from(contact.first));
+            contacts.second.push(match contact.second {
+                ContactPartner::Particle(id) => i64::from(id),
+                ContactPartner::Wall(place) => -1 - place as i64,
+            });
+            contacts.force.push(contact.force.to_array());
+            contacts.normal_force.push(contact.normal_force);
+            contacts.overlap.push(contact.overlap);
+            contacts.memory.push(contact.memory);
+        });
+        contacts
+    }
+
+    /// Touching contacts of each particle, walls included.
+    fn coordination(&self, particles: usize) -> Vec<i64> {
+        let mut counts = vec![0; particles];
+        for contact in (0..self.first.len()).filter(|&contact| self.overlap[contact] > 0.0) {
+            counts[self.first[contact] as usize] += 1;
+            if self.second[contact] >= 0 {
+                counts[self.second[contact] as usize] += 1;
+            }
+        }
+        counts
+    }
+}

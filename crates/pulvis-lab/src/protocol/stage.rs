@@ -1,0 +1,171 @@
+//! When a stage ends.
+
+use pulvis_core::Simulation;
+use pulvis_core::walls::WallMotion;
+use pulvis_input::scenario::{Crossing, Scenario, Stage, StopRules};
+
+use super::setup::{box_walls, extent};
+use pulvis_core::walls::Extent;
+
+/// Steps between two looks at rules that cost time.
+pub(super) const LOOK_EVERY: u64 = 50;
+
+/// The kinetic energy of a sample that breathes passes through zero twice a period, so the ratio to
+/// the elastic energy must stay low over this many looks (of [`LOOK_EVERY`] steps: about ten contacts).
+const LOOKS_IN_A_ROW: u32 = 10;
+
+/// Why a stage ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// Its time was over.
+    Time,
+    /// The kinetic energy had fallen far enough below the elastic one.
+    AtRest,
+    /// The strain was reached.
+    Strain,
+    /// The stress was reached.
+    Stress,
+    /// The wall had done its cycles.
+    Cycles,
+    /// The user stopped the run.
+    Interrupted,
+}
+
+impl Ending {
+    /// The ending in words.
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::Time => "time over",
+            Self::AtRest => "at rest",
+            Self::Strain => "strain reached",
+            Self::Stress => "stress reached",
+            Self::Cycles => "cycles done",
+            Self::Interrupted => "interrupted",
+        }
+    }
+}
+
+/// Watches over a stage while it runs.
+pub(super) struct StageWatch<'a> {
+    scenario: &'a Scenario,
+    rules: &'a StopRules,
+    start_step: u64,
+    start_time: f64,
+    /// Extent along each axis at the start of the stage [m].
+    start_lengths: [Option<f64>; 3],
+    calm_looks: u32,
+    last_stress: Option<f64>,
+}
+
+impl<'a> StageWatch<'a> {
+    pub(super) fn new(scenario: &'a Scenario, stage: &'a Stage, simulation: &Simulation) -> Self {
+        Self {
+            scenario,
+            rules: &stage.until,
+            start_step: simulation.steps(),
+            start_time: simulation.time(),
+            start_lengths: [0, 1, 2].map(|axis| length(scenario, simulation, axis)),
+            calm_looks: 0,
+            last_stress: None,
+        }
+    }
+
+    /// How far the stage has come, from 0 to 1, where its duration is known.
+    pub(super) fn progress(&self, simulation: &Simulation) -> Option<f64> {
+        let duration = self.rules.time.or_else(|| cycles_duration(simulation))?;
+        Some(((simulation.time() - self.start_time) / duration).min(1.0))
+    }
+
+    /// Whether the stage ends now.
+    pub(super) fn ending(&mut self, simulation: &mut Simulation) -> Option<Ending> {
+        // Half a step of tolerance: sums of time steps are not exact.
+        let elapsed = simulation.time() - self.start_time + 0.5 * simulation.time_step();
+        if self.rules.time.is_some_and(|time| elapsed >= time) {
+            return Some(Ending::Time);
+        }
+        if self.rules.time.is_none() && cycles_duration(simulation).is_some_and(|time| elapsed >= time) {
+            return Some(Ending::Cycles);
+        }
+        if self.strain_reached(simulation) {
+            return Some(Ending::Strain);
+        }
+        if !(simulation.steps() - self.start_step).is_multiple_of(LOOK_EVERY) {
+            return None;
+        }
+        if self.stress_reached(simulation) {
+            return Some(Ending::Stress);
+        }
+        let calm = self.is_calm(simulation, elapsed);
+        self.calm_looks = if calm { self.calm_looks + 1 } else { 0 };
+        (self.calm_looks >= LOOKS_IN_A_ROW).then_some(Ending::AtRest)
+    }
+
+    fn is_calm(&self, simulation: &mut Simulation, elapsed: f64) -> bool {
+        let Some(limit) = self.rules.kinetic_to_elastic else { return false };
+        if elapsed < self.rules.minimum_time {
+            return false;
+        }
+        let ledger = simulation.ledger();
+        ledger.kinetic() <= limit * ledger.elastic()
+    }
+
+    fn strain_reached(&self, simulation: &Simulation) -> bool {
+        let Some(rule) = &self.rules.strain else { return false };
+        let axis = rule.axis.index();
+        let (Some(start), Some(now)) = (self.start_lengths[axis], length(self.scenario, simulation, axis))
+        else {
+            return false;
+        };
+        let strain = now / start - 1.0;
+        if rule.value > 0.0 { strain >= rule.value } else { strain <= rule.value }
+    }
+
+    fn stress_reached(&mut self, simulation: &Simulation) -> bool {
+        let Some(rule) = &self.rules.stress else { return false };
+        let Some(stress) = wall_stress(self.scenario, simulation, rule.axis.index()) else { return false };
+        let before = self.last_stress.replace(stress);
+        let side = |stress: f64| match rule.crosses {
+            Crossing::Upwards => stress >= rule.value,
+            Crossing::Downwards => stress <= rule.value,
+        };
+        before.is_some_and(|before| side(stress) && !side(before))
+    }
+}
+
+/// Duration of the longest cosine motion that is under way [s].
+fn cycles_duration(simulation: &Simulation) -> Option<f64> {
+    let durations = simulation.walls().iter().filter_map(|wall| match &wall.motion {
+        WallMotion::Cosine(cosine) if wall.present => Some(cosine.duration()),
+        _ => None,
+    });
+    durations.max_by(f64::total_cmp)
+}
+
+/// Extent of the sample along an axis now [m].
+pub(super) fn length(scenario: &Scenario, simulation: &Simulation, axis: usize) -> Option<f64> {
+    match extent(scenario, axis)? {
+        Extent::Given(length) => Some(length),
+        Extent::Between(low, high) => {
+            let walls = simulation.walls();
+            Some((walls[high].point - walls[low].point)[axis])
+        }
+    }
+}
+
+/// Mean compressive force of the two box walls of an axis now [N].
+pub(super) fn wall_force(scenario: &Scenario, simulation: &Simulation, axis: usize) -> Option<f64> {
+    let [low, high] = box_walls(scenario, axis);
+    let forces: Vec<f64> = [low, high]
+        .into_iter()
+        .flatten()
+        .filter(|&place| simulation.walls()[place].present)
+        .map(|place| -simulation.wall_force(place).dot(simulation.walls()[place].normal))
+        .collect();
+    if forces.is_empty() { None } else { Some(forces.iter().sum::<f64>() / forces.len() as f64) }
+}
+
+/// Mean compressive stress of the two box walls of an axis now [Pa].
+pub(super) fn wall_stress(scenario: &Scenario, simulation: &Simulation, axis: usize) -> Option<f64> {
+    let place = box_walls(scenario, axis).into_iter().flatten().next()?;
+    Some(wall_force(scenario, simulation, axis)? / simulation.wall_area(place)?)
+}
