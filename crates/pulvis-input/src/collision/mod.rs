@@ -26,7 +26,6 @@
 
 mod bodies;
 mod closed_form;
-mod contact;
 mod speed;
 mod sweep;
 
@@ -34,6 +33,7 @@ pub use bodies::{Bodies, Sphere};
 pub use closed_form::luding_pair;
 pub use sweep::SweptVariable;
 
+use crate::contact::read_contact;
 use crate::context::Reported;
 use crate::document::Document;
 use crate::error::InputErrors;
@@ -43,7 +43,6 @@ use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::{Name, Text};
 use bodies::read_bodies;
-use contact::read_contact;
 use pulvis_contact::ContactModel;
 use pulvis_math::Dimension;
 use speed::{Speed, read_speed};

@@ -1,7 +1,7 @@
 //! What differs from collision to collision.
 
-use super::contact::ContactLaws;
 use super::speed::{Measure, Speed};
+use crate::contact::{ContactLaws, NamedLaw, entries};
 use crate::context::Reported;
 use crate::list::List;
 use crate::problem::Problem;
@@ -9,7 +9,7 @@ use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::{Integer, Name, Text};
 use crate::similar::similar;
-use pulvis_contact::catalogue::{Kind, Parameter, Value};
+use pulvis_contact::catalogue::{Kind, LawEntry, Parameter, Value};
 use pulvis_math::Dimension;
 
 /// More points than any curve needs; a slip of the pen should not fill the memory.
@@ -160,6 +160,12 @@ fn read_range(
     Ok(std::iter::once(from).chain(inner).chain(std::iter::once(to)).collect())
 }
 
+/// The descriptions of a contact's laws.
+fn laws(contact: &ContactLaws) -> Vec<&'static LawEntry> {
+    let entry = |law: &NamedLaw| entries(law.role).into_iter().find(|entry| entry.name == law.name);
+    contact.laws.iter().filter_map(entry).collect()
+}
+
 /// The variable called `name`.
 fn find(table: &TableReader<'_>, name: &str, contact: &ContactLaws) -> Result<Sweepable, Reported> {
     if let Some((_, measure)) = Measure::ALL.into_iter().find(|(known, _)| *known == name) {
@@ -177,7 +183,7 @@ fn find(table: &TableReader<'_>, name: &str, contact: &ContactLaws) -> Result<Sw
     }
     let parameter = name.strip_prefix("contact.").and_then(|rest| {
         let (role, parameter) = rest.split_once('.')?;
-        contact.entry(role)?.parameter(parameter)
+        laws(contact).into_iter().find(|entry| entry.role.key() == role)?.parameter(parameter)
     });
     match parameter {
         Some(parameter) => match parameter.kind {
@@ -202,7 +208,7 @@ fn find(table: &TableReader<'_>, name: &str, contact: &ContactLaws) -> Result<Sw
 /// Reports a variable that does not exist.
 fn unknown(table: &TableReader<'_>, name: &str, contact: &ContactLaws) -> Reported {
     let mut known: Vec<String> = Measure::ALL.iter().map(|(name, _)| (*name).to_owned()).collect();
-    for entry in &contact.entries {
+    for entry in laws(contact) {
         let numbers =
             entry.parameters.iter().filter(|parameter| matches!(parameter.kind, Kind::Number { .. }));
         known.extend(numbers.map(|parameter| format!("contact.{}.{}", entry.role.key(), parameter.name)));
