@@ -63,7 +63,7 @@ pub struct Servo {
     pub pressure: f64,
     /// Pressure at the start of the stage [Pa].
     pub from: f64,
-    /// Duration of the linear ramp between the two [s].
+    /// Duration of the ramp between the two, half a cosine [s].
     pub ramp: f64,
     /// Mass of the wall [kg].
     pub mass: f64,

@@ -4,7 +4,7 @@ use crate::context::Reported;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use crate::shape::{Boolean, Integer, Text};
+use crate::shape::{Boolean, Integer, Name, Text};
 use crate::value_reader::ValueReader;
 use pulvis_math::Dimension;
 use std::path::{Path, PathBuf};
@@ -44,20 +44,28 @@ pub enum Snapshots {
     Every(Interval),
 }
 
-/// Scales of D = (L − L0)/length and F* = F/(stiffness length).
+/// Scales of D = (L − L0)/length and F* = F/(stiffness length), and when L0 is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dimensionless {
     /// Length scale [m].
     pub length: f64,
     /// Stiffness scale [N/m].
     pub stiffness: f64,
+    /// Index of the stage at whose end L is taken for L0; until then, and where there is none, L0 is
+    /// the length at the start of the run.
+    pub reference_stage: Option<usize>,
 }
 
 /// Rows of the time series are written after this many steps where nothing is said.
 const DEFAULT_STEPS: u64 = 100;
 
-/// Reads `[output]`; `source` is the scenario file, whose name the folder takes where it has none.
-pub(super) fn read_output(root: &mut TableReader<'_>, source: &Path) -> Result<OutputPlan, Reported> {
+/// Reads `[output]`; `source` is the scenario file, whose name the folder takes where it has none, and
+/// `stages` are the names of the stages, if these could be read.
+pub(super) fn read_output(
+    root: &mut TableReader<'_>,
+    source: &Path,
+    stages: Option<&[&str]>,
+) -> Result<OutputPlan, Reported> {
     let stem = source.file_stem().map_or_else(|| "scenario".into(), |stem| stem.to_string_lossy());
     let default = OutputPlan {
         folder: PathBuf::from(format!("{stem}-run")),
@@ -72,7 +80,7 @@ pub(super) fn read_output(root: &mut TableReader<'_>, source: &Path) -> Result<O
     let snapshots = table.value("vtk").map(|value| read_snapshots(&value)).transpose();
     let plots = table.or("plots", Boolean, default.plots);
     let dimensionless = table.optional_table("dimensionless").and_then(|scales| match scales {
-        Some(scales) => read_dimensionless(scales).map(Some),
+        Some(scales) => read_dimensionless(scales, stages).map(Some),
         None => Ok(None),
     });
     table.finish();
@@ -130,9 +138,15 @@ fn read_interval(value: &ValueReader<'_>) -> Result<Interval, Reported> {
     result
 }
 
-fn read_dimensionless(mut table: TableReader<'_>) -> Result<Dimensionless, Reported> {
+fn read_dimensionless(mut table: TableReader<'_>, stages: Option<&[&str]>) -> Result<Dimensionless, Reported> {
     let length = table.required("length", QuantityRule::of(Dimension::LENGTH).above(0.0));
     let stiffness = table.required("stiffness", QuantityRule::of(Dimension::STIFFNESS).above(0.0));
+    let reference = match stages {
+        Some(stages) => table.optional("reference_stage", Name(stages)),
+        None => table.optional("reference_stage", Text).map(|_| None),
+    };
     table.finish();
-    Ok(Dimensionless { length: length?, stiffness: stiffness? })
+    let place = |name: &str| stages.and_then(|stages| stages.iter().position(|stage| *stage == name));
+    let reference_stage = reference?.and_then(place);
+    Ok(Dimensionless { length: length?, stiffness: stiffness?, reference_stage })
 }

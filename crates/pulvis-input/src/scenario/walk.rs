@@ -62,7 +62,6 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     let seed = root.or("seed", Integer::at_least(0), 1);
     let domain = read_domain(&mut root);
     let time = read_time(&mut root, TimeStep::default());
-    let output = read_output(&mut root, file);
     // Everything else speaks of materials.
     let (materials, fit) = read_materials(&mut root)?;
     let known = domain.as_ref().map_or(None, Option::as_ref);
@@ -72,6 +71,9 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         (Ok(walls), Ok(time)) => read_stages(&mut root, &walls.walls, *time),
         (&Err(reported), _) | (_, &Err(reported)) => Err(reported),
     };
+    let names: Option<Vec<&str>> =
+        stages.as_ref().ok().map(|stages| stages.iter().map(|stage| stage.name.as_str()).collect());
+    let output = read_output(&mut root, file, names.as_deref());
     let bodies = walls.and_then(|walls| {
         let groups = groups?;
         check_placement(&root, &groups, &walls.walls, known)?;

@@ -114,7 +114,7 @@ fn stresses(title: &str, series: &Series<'_>) -> Option<Figure> {
 /// reference stage on.
 fn force_displacement(scenario: &Scenario, title: &str, series: &Series<'_>) -> Option<Figure> {
     scenario.output.dimensionless?;
-    let first = super::run::reference_stage(scenario).map_or(1, |stage| stage + 2);
+    let first = scenario.output.dimensionless.and_then(|scales| scales.reference_stage).map_or(1, |stage| stage + 2);
     let mut figure = Figure::new();
     let mut any = false;
     for axis in AXES {

@@ -121,11 +121,6 @@ pub fn run(
     run.finish(stages, folder.clone())
 }
 
-/// The stage after which displacements count from zero.
-pub(super) fn reference_stage(_scenario: &Scenario) -> Option<usize> {
-    None
-}
-
 /// A run under way.
 struct Run<'a> {
     scenario: &'a Scenario,
@@ -232,7 +227,7 @@ impl<'a> Run<'a> {
         };
         self.row(number, start_lengths)?;
         self.frame()?;
-        if reference_stage(scenario) == Some(number) {
+        if scenario.output.dimensionless.and_then(|scales| scales.reference_stage) == Some(number) {
             self.measure.take_reference(scenario, &self.simulation);
         }
         watch(&self.progress(number, &mut pace, None, Some(ending)));

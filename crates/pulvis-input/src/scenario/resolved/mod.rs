@@ -6,7 +6,7 @@ mod writer;
 
 use super::output::{Interval, OutputPlan, Snapshots};
 use super::time::TimeStep;
-use super::{Axis, Contact, Material, NamedLaw, Scenario};
+use super::{Axis, Contact, Material, NamedLaw, Scenario, Stage};
 use pulvis_contact::catalogue::{Kind, Value};
 use pulvis_math::{Dimension, Vector3};
 use writer::{Writer, key, list, number, quantity, text, vector};
@@ -45,7 +45,7 @@ impl Scenario {
         self.write_walls(&mut writer);
         writer.table("time");
         write_time(&mut writer, self.time);
-        write_output(&mut writer, &self.output);
+        write_output(&mut writer, &self.output, &self.stages);
         self.write_stages(&mut writer);
         writer.finish()
     }
@@ -110,7 +110,7 @@ fn write_time(writer: &mut Writer, time: TimeStep) {
     }
 }
 
-fn write_output(writer: &mut Writer, output: &OutputPlan) {
+fn write_output(writer: &mut Writer, output: &OutputPlan, stages: &[Stage]) {
     let interval = |interval: Interval| match interval {
         Interval::Steps(steps) => format!("{{ steps = {steps} }}"),
         Interval::Time(time) => format!("{{ interval = {} }}", quantity(time, Dimension::TIME)),
@@ -131,5 +131,8 @@ fn write_output(writer: &mut Writer, output: &OutputPlan) {
         writer.table("output.dimensionless");
         writer.key("length", quantity(scales.length, Dimension::LENGTH));
         writer.key("stiffness", quantity(scales.stiffness, Dimension::STIFFNESS));
+        if let Some(stage) = scales.reference_stage.and_then(|stage| stages.get(stage)) {
+            writer.key("reference_stage", text(&stage.name));
+        }
     }
 }
