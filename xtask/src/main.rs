@@ -1,2 +1,62 @@
-//! Automation: `cargo xtask --help`.
-fn main() {}
+//! Automation of the workspace: `cargo xtask <task>`, the same on a developer's machine and in CI.
+#![allow(clippy::print_stdout, clippy::print_stderr)] // tasks talk to people
+
+mod book;
+mod check_docs;
+mod ci;
+mod expected;
+mod experiments;
+mod figures;
+mod process;
+mod scenarios;
+mod table;
+mod tests;
+
+use std::process::ExitCode;
+
+/// What comes of a task; the error is a sentence for people.
+type Outcome<T = ()> = Result<T, String>;
+
+const USAGE: &str = "\
+usage: cargo xtask <task>
+
+  test                 all tests, and the VTK files read by Python's VTK where it can be installed
+  ci                   everything that must hold before a change is merged
+  experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
+  scenarios            shows every good and bad scenario of the tests to the pulvis command
+  figures              makes the pictures of README and docs anew
+  book                 writes the book's table of laws from the catalogue, builds the book if mdbook is there
+  book --check         says whether that table is up to date
+  check-docs           paths named in ARCHITECTURE.md, length of files, paths of single machines
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = match words[..] {
+        ["test"] => tests::run_all(),
+        ["ci"] => ci::run_all(),
+        ["experiments"] => experiments::run(None),
+        ["experiments", folder] => experiments::run(Some(folder)),
+        ["scenarios"] => scenarios::run(),
+        ["figures"] => figures::run_all(),
+        ["book"] => book::write(),
+        ["book", "--check"] => book::check(),
+        ["check-docs"] => check_docs::run(),
+        [] | ["help" | "--help" | "-h"] => {
+            print!("{USAGE}");
+            return ExitCode::SUCCESS;
+        }
+        _ => {
+            eprint!("error: `{}` is no task\n\n{USAGE}", words.join(" "));
+            return ExitCode::from(2);
+        }
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

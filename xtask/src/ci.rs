@@ -1,0 +1,42 @@
+//! `cargo xtask ci`: everything that must hold before a change is merged, cheapest first.
+
+use std::time::Instant;
+
+use crate::Outcome;
+use crate::process::{cargo, run};
+use crate::{book, check_docs, experiments, scenarios, tests};
+
+/// A step, by its name.
+type Step = (&'static str, fn() -> Outcome);
+
+/// Everything, one profile: tests, the binary and the tasks share their builds.
+pub fn run_all() -> Outcome {
+    let steps: [Step; 8] = [
+        ("formatting", || run(&mut cargo(&["fmt", "--all", "--check"]))),
+        ("documents", check_docs::run),
+        ("table of laws", book::check),
+        ("lints", lints),
+        ("API documentation", documentation),
+        ("tests", tests::run_all),
+        ("scenarios", scenarios::run),
+        ("experiments", || experiments::run(None)),
+    ];
+    let mut times = Vec::new();
+    for (name, step) in steps {
+        println!("\n==== {name}");
+        let began = Instant::now();
+        step().map_err(|message| format!("{name}: {message}"))?;
+        times.push(format!("{name} {:.0} s", began.elapsed().as_secs_f64()));
+    }
+    println!("\nall well: {}", times.join(", "));
+    Ok(())
+}
+
+fn lints() -> Outcome {
+    run(&mut cargo(&["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"]))
+}
+
+fn documentation() -> Outcome {
+    let mut command = cargo(&["doc", "--quiet", "--workspace", "--no-deps"]);
+    run(command.env("RUSTDOCFLAGS", "-D warnings"))
+}

@@ -1,0 +1,131 @@
+//! `cargo xtask experiments`: the experiments that are short, through the command line, against their
+//! `expected.toml`.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::Outcome;
+use crate::expected::{Collisions, Demand, collisions, demands};
+use crate::process::{pulvis, root, run as run_command, scratch, text};
+use crate::table::Table;
+use crate::tests::read_by_vtk;
+
+/// The largest relative closing error of the energy ledger that a run may have. Issue 2 asks for it of
+/// the short tablet at the automatic time step.
+const LEDGER_TOLERANCE: f64 = 1e-4;
+
+/// Runs the experiments of the folders, or of one.
+pub fn run(only: Option<&str>) -> Outcome {
+    let pulvis = pulvis()?;
+    let mut ran = 0;
+    for folder in folders(only)? {
+        let collision = folder.join("experiment.toml");
+        if is_collision(&collision)? {
+            collide(&pulvis, &folder, &collision)?;
+            ran += 1;
+        }
+        // A run is short if its folder says so by a file `short.toml`; the whole one is for patience.
+        let short = folder.join("short.toml");
+        if short.exists() {
+            run_stages(&pulvis, &folder, &short)?;
+            ran += 1;
+        }
+    }
+    if ran == 0 { Err("no experiment was found".to_owned()) } else { Ok(()) }
+}
+
+fn folders(only: Option<&str>) -> Outcome<Vec<PathBuf>> {
+    let all = root().join("experiments");
+    let failed = |error: std::io::Error| format!("{}: {error}", all.display());
+    let mut folders = Vec::new();
+    for entry in std::fs::read_dir(&all).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        let named = only.is_none_or(|name| path.file_name().is_some_and(|own| own == name));
+        if path.is_dir() && named {
+            folders.push(path);
+        }
+    }
+    folders.sort();
+    Ok(folders)
+}
+
+fn is_collision(path: &Path) -> Outcome<bool> {
+    if !path.exists() {
+        return Ok(false);
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok(text.lines().any(|line| line.trim() == "[collision]"))
+}
+
+/// Every restitution of the sweep agrees with theory, and with the numbers of `expected.toml`.
+fn collide(pulvis: &Path, folder: &Path, scenario: &Path) -> Outcome {
+    let csv = text(Command::new(pulvis).arg("collide").arg(scenario).args(["--format", "csv"]))?;
+    let table = Table::parse(&csv)?;
+    let expected = collisions(&folder.join("expected.toml"))?;
+    let rows =
+        check_collisions(&table, &expected).map_err(|message| format!("{}: {message}", name(folder)))?;
+    println!("{}: {rows} collisions as expected", name(folder));
+    Ok(())
+}
+
+fn check_collisions(table: &Table, expected: &Collisions) -> Outcome<usize> {
+    let (chi, restitution) = (table.numbers("chi")?, table.numbers("restitution")?);
+    let theory = table.numbers("restitution_theory")?;
+    let near = |got: f64, value: f64| (got - value).abs() <= expected.tolerance * value.abs();
+    for ((&chi, &got), &value) in chi.iter().zip(&restitution).zip(&theory) {
+        let stated =
+            expected.points.iter().find(|(at, _)| (at - chi).abs() < 1e-9).map_or(value, |point| point.1);
+        if !near(got, value) || !near(got, stated) {
+            return Err(format!("e({chi}) = {got}, theory says {value}, expected.toml {stated}"));
+        }
+    }
+    Ok(chi.len())
+}
+
+/// The run ends well, its ledger closes, its files can be read and its series meet the demands.
+fn run_stages(pulvis: &Path, folder: &Path, scenario: &Path) -> Outcome {
+    let output = scratch(&format!("experiments/{}", name(folder)))?;
+    run_command(Command::new(pulvis).arg("run").arg(scenario).arg("--output").arg(&output).arg("--force"))?;
+    let series = output.join("timeseries.csv");
+    let csv = std::fs::read_to_string(&series).map_err(|error| format!("{}: {error}", series.display()))?;
+    let table = Table::parse(&csv)?;
+    let errors = table.numbers("relative_error")?;
+    let error = errors.iter().fold(0.0, |most: f64, error| most.max(error.abs()));
+    // Asked of each row, because a maximum passes over what is no number.
+    if !errors.iter().all(|error| error.abs() < LEDGER_TOLERANCE) {
+        let name = name(folder);
+        return Err(format!("{name}: the ledger closes to {error:e} only, expected {LEDGER_TOLERANCE:e}"));
+    }
+    read_by_vtk(&output, &[])?;
+    let stem = scenario.file_stem().unwrap_or_default().to_string_lossy();
+    let expected = folder.join("expected.toml");
+    let demands = if expected.exists() { demands(&expected, &stem)? } else { Vec::new() };
+    for demand in &demands {
+        meets(&table, demand).map_err(|message| format!("{}: {message}", name(folder)))?;
+    }
+    println!("{}: ledger closes to {error:.1e}, {} demands met", name(folder), demands.len());
+    Ok(())
+}
+
+fn meets(table: &Table, demand: &Demand) -> Outcome {
+    let Demand { column, stage, pick, bounds: [least, most] } = demand;
+    let (values, stages) = (table.numbers(column)?, table.numbers("stage")?);
+    let counts = |of: f64| stage.is_none_or(|stage| (stage - of).abs() < 0.5);
+    let mut picked = values.into_iter().zip(stages).filter(|&(_, of)| counts(of)).map(|(value, _)| value);
+    let value = match *pick {
+        "first" => picked.next(),
+        "last" => picked.next_back(),
+        "minimum" => picked.reduce(f64::min),
+        _ => picked.reduce(f64::max),
+    };
+    let value = value.ok_or_else(|| format!("no row of `{column}` in stage {stage:?}"))?;
+    if value >= *least && value <= *most {
+        return Ok(());
+    }
+    let of = stage.map_or(String::new(), |stage| format!(" of stage {stage}"));
+    Err(format!("{pick} {column}{of} is {value}, expected {least} to {most}"))
+}
+
+fn name(folder: &Path) -> String {
+    folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}

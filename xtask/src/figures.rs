@@ -1,0 +1,37 @@
+//! `cargo xtask figures`: the pictures of README and docs, by the commands that stand beside them.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::Outcome;
+use crate::process::{cargo, root, run, scratch};
+
+/// Makes all pictures anew, with the release build: whoever asks for pictures wants to see the
+/// program that users have.
+pub fn run_all() -> Outcome {
+    run(&mut cargo(&["build", "--release", "-p", "pulvis-cli"]))?;
+    let figures = root().join("docs/figures");
+    std::fs::create_dir_all(&figures).map_err(|error| format!("{}: {error}", figures.display()))?;
+
+    let restitution = figures.join("restitution.png");
+    let scenario = root().join("experiments/restitution/experiment.toml");
+    run(pulvis().arg("collide").arg(scenario).arg("--plot").arg(&restitution).arg("--force"))?;
+    copy(&restitution, &root().join("experiments/restitution/restitution.png"))?;
+
+    let folder = scratch("tablet_short")?;
+    let scenario = root().join("experiments/tablet/short.toml");
+    run(pulvis().arg("run").arg(scenario).arg("--output").arg(&folder).arg("--force"))?;
+    copy(&folder.join("force_displacement.png"), &figures.join("tablet_short_force.png"))?;
+    copy(&folder.join("energies.png"), &figures.join("tablet_short_energies.png"))?;
+    copy(&folder.join("particles.png"), &figures.join("tablet_short_particles.png"))?;
+    println!("look at the pictures before you commit them: git diff --stat docs experiments");
+    Ok(())
+}
+
+fn pulvis() -> Command {
+    cargo(&["run", "--quiet", "--release", "-p", "pulvis-cli", "--"])
+}
+
+fn copy(from: &Path, to: &Path) -> Outcome {
+    std::fs::copy(from, to).map(|_| ()).map_err(|error| format!("{}: {error}", from.display()))
+}

@@ -1,0 +1,65 @@
+//! `cargo xtask test`: the tests of the workspace, and readers of its files that are not its own.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::Outcome;
+use crate::process::{cargo, root, run, scratch, target, works};
+
+/// All tests.
+pub fn run_all() -> Outcome {
+    if works(&mut cargo(&["nextest", "--version"])) {
+        run(&mut cargo(&["nextest", "run", "--workspace"]))?;
+        run(&mut cargo(&["test", "--workspace", "--doc", "--quiet"]))?;
+    } else {
+        println!("skipped: cargo-nextest is not installed; `cargo test` runs the same tests");
+        run(&mut cargo(&["test", "--workspace"]))?;
+    }
+    sample_files()
+}
+
+/// The files that a run leaves, read by the VTK library itself.
+fn sample_files() -> Outcome {
+    let folder = scratch("sample_run")?;
+    let path = folder.to_string_lossy();
+    run(&mut cargo(&["run", "--quiet", "-p", "pulvis-io", "--example", "sample_run", "--", &path]))?;
+    read_by_vtk(&folder, &["--sample"])
+}
+
+/// Has Python's VTK read a run folder, unless it cannot be had, which is said.
+pub fn read_by_vtk(folder: &std::path::Path, options: &[&str]) -> Outcome {
+    let Some(python) = python_with_vtk() else { return Ok(()) };
+    let mut command = Command::new(python);
+    run(command.arg(root().join("scripts/check_vtk.py")).arg(folder).args(options))
+}
+
+/// A Python that has VTK, in a private environment below the target folder.
+fn python_with_vtk() -> Option<PathBuf> {
+    let environment = target().join("xtask-python");
+    let python = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let has_vtk = || works(Command::new(&python).args(["-c", "import vtkmodules.vtkIOXML, numpy"]));
+    if has_vtk() {
+        return Some(python);
+    }
+    let system = ["python3", "python"].into_iter().find(|name| works(Command::new(name).arg("--version")));
+    let Some(system) = system else {
+        println!("skipped: VTK files are not read by VTK's own reader, there is no Python here");
+        return None;
+    };
+    println!(
+        "installing VTK for Python into {} (once)",
+        environment.strip_prefix(root()).unwrap_or(&environment).display()
+    );
+    if !works(Command::new(system).args(["-m", "venv"]).arg(&environment)) {
+        println!(
+            "skipped: VTK files are not read by VTK's own reader, `{system} -m venv` does not work here"
+        );
+        return None;
+    }
+    let install = ["-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "20", "vtk", "numpy"];
+    if !works(Command::new(&python).args(install)) || !has_vtk() {
+        println!("skipped: VTK files are not read by VTK's own reader, `pip install vtk` does not work here");
+        return None;
+    }
+    Some(python)
+}
