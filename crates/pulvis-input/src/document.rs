@@ -50,6 +50,11 @@ impl Document {
         Ok(Self { source: Arc::new(source), root })
     }
 
+    /// The text and the values.
+    pub(crate) fn parts(&self) -> (&Source, &Table) {
+        (&self.source, &self.root)
+    }
+
     /// The name of the file, as the user wrote it.
     pub fn name(&self) -> &str {
         &self.source.name

@@ -33,6 +33,7 @@ pub mod document;
 pub mod error;
 pub mod list;
 mod load;
+mod mistake;
 pub mod overrides;
 pub mod parameters;
 pub mod problem;

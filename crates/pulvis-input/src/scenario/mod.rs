@@ -70,7 +70,8 @@ pub use until::{Crossing, StopRules, StrainRule, StressRule};
 pub use walls::Wall;
 
 use crate::document::Document;
-use crate::error::InputErrors;
+use crate::error::{InputError, InputErrors};
+use crate::problem::Problem;
 use pulvis_math::Vector3;
 use std::path::{Path, PathBuf};
 
@@ -144,6 +145,19 @@ impl Scenario {
     /// All mistakes.
     pub fn from_document(document: &Document, path: Option<&Path>) -> Result<Self, InputErrors> {
         walk::scenario(document, path)
+    }
+
+    /// A mistake that shows only after reading, at the first of several dotted `paths` that stands in
+    /// the file, or at what there is of the last one.
+    pub fn mistake(&self, paths: &[&str], problem: Problem, help: impl Into<String>) -> InputError {
+        // The text was parsed before, so that the fallback is never needed.
+        match Document::from_str(&self.source.name, &self.source.text) {
+            Err(_) => InputError::of_file(&self.source.name, problem),
+            Ok(document) => {
+                let path = paths.iter().find(|path| document.has(path)).or(paths.last()).unwrap_or(&"");
+                document.mistake(path, problem, help)
+            }
+        }
     }
 
     /// The index of a material.

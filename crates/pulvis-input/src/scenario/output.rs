@@ -138,7 +138,10 @@ fn read_interval(value: &ValueReader<'_>) -> Result<Interval, Reported> {
     result
 }
 
-fn read_dimensionless(mut table: TableReader<'_>, stages: Option<&[&str]>) -> Result<Dimensionless, Reported> {
+fn read_dimensionless(
+    mut table: TableReader<'_>,
+    stages: Option<&[&str]>,
+) -> Result<Dimensionless, Reported> {
     let length = table.required("length", QuantityRule::of(Dimension::LENGTH).above(0.0));
     let stiffness = table.required("stiffness", QuantityRule::of(Dimension::STIFFNESS).above(0.0));
     let reference = match stages {

@@ -6,6 +6,7 @@ use pulvis_core::arrangement::{
     self, Lattice, Random, Region, Sizes, gaussian_vector, random_places, random_stream,
 };
 use pulvis_core::{Domain, MaterialIndex, Particle};
+use pulvis_input::Problem;
 use pulvis_input::scenario::{Arrangement, Grain, ParticleGroup, RadiusDistribution, Scenario};
 use pulvis_math::Vector3;
 
@@ -42,8 +43,11 @@ fn radii(
     let Some(distribution) = &group.radius else {
         return Ok(grains(group).iter().filter_map(|grain| grain.radius).collect());
     };
-    let failed = |source| PrepareError::Sizes { file: scenario.source.name.clone(), group: place, source };
-    sizes(distribution).draw(group.count, random).map_err(failed)
+    sizes(distribution).draw(group.count, random).map_err(|invalid| {
+        let problem = Problem::rule(invalid.to_string(), "a distribution that radii can be drawn from");
+        let path = format!("particles[{place}].radius");
+        scenario.mistake(&[&path], problem, "widen `minimum` and `maximum`").into()
+    })
 }
 
 fn sizes(distribution: &RadiusDistribution) -> Sizes {
@@ -56,7 +60,9 @@ fn sizes(distribution: &RadiusDistribution) -> Sizes {
         RadiusDistribution::LogNormal { median, sigma, minimum, maximum } => {
             Sizes::LogNormal { median, sigma, minimum, maximum }
         }
-        RadiusDistribution::List { values, weights } => Sizes::List(values.into_iter().zip(weights).collect()),
+        RadiusDistribution::List { values, weights } => {
+            Sizes::List(values.into_iter().zip(weights).collect())
+        }
     }
 }
 
@@ -87,10 +93,10 @@ fn centres(
             let region = Region { lower: extent.lower, upper: extent.upper };
             let present: Vec<_> =
                 present.iter().map(|particle| (particle.position, particle.radius)).collect();
-            random_places(radii, &region, domain, &present, random).map_err(|source| PrepareError::NoRoom {
-                file: scenario.source.name.clone(),
-                group: place,
-                source,
+            random_places(radii, &region, domain, &present, random).map_err(|no_room| {
+                let problem = Problem::rule(no_room.to_string(), "room for all particles");
+                let path = format!("particles[{place}].arrangement");
+                scenario.mistake(&[&path], problem, "enlarge the region or take fewer particles").into()
             })
         }
         Arrangement::File { grains, .. } => Ok(grains.iter().map(|grain| grain.position).collect()),

@@ -95,8 +95,10 @@ fn energies(title: &str, series: &Series<'_>) -> Figure {
 }
 
 fn stresses(title: &str, series: &Series<'_>) -> Option<Figure> {
-    let mut chart =
-        Chart::new(format!("{title}: stress on walls")).x_label("time [s]").y_label("stress [Pa]").zero_line();
+    let mut chart = Chart::new(format!("{title}: stress on walls"))
+        .x_label("time [s]")
+        .y_label("stress [Pa]")
+        .zero_line();
     let mut strain = Chart::new("length of the sample").x_label("time [s]").y_label("length [m]");
     let mut any = false;
     for axis in AXES {
@@ -114,7 +116,8 @@ fn stresses(title: &str, series: &Series<'_>) -> Option<Figure> {
 /// reference stage on.
 fn force_displacement(scenario: &Scenario, title: &str, series: &Series<'_>) -> Option<Figure> {
     scenario.output.dimensionless?;
-    let first = scenario.output.dimensionless.and_then(|scales| scales.reference_stage).map_or(1, |stage| stage + 2);
+    let first =
+        scenario.output.dimensionless.and_then(|scales| scales.reference_stage).map_or(1, |stage| stage + 2);
     let mut figure = Figure::new();
     let mut any = false;
     for axis in AXES {

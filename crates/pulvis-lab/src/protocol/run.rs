@@ -204,9 +204,7 @@ impl<'a> Run<'a> {
         self.row(number, start_lengths)?;
         let mut pace = Pace::new(self.simulation.steps());
         let ending = loop {
-            self.simulation
-                .step()
-                .map_err(|source| RunError::Step { stage: stage.name.clone(), source })?;
+            self.simulation.step().map_err(|source| RunError::Step { stage: stage.name.clone(), source })?;
             if self.rows_due.now(&self.simulation) {
                 self.row(number, start_lengths)?;
             }
@@ -238,8 +236,7 @@ impl<'a> Run<'a> {
     fn switch_to(&mut self, number: usize) -> Result<(), RunError> {
         let plan = &self.plans[number];
         let simulation = &mut self.simulation;
-        let failed =
-            |source| RunError::Switch { stage: self.scenario.stages[number].name.clone(), source };
+        let failed = |source| RunError::Switch { stage: self.scenario.stages[number].name.clone(), source };
         // What the first stage sets is what the simulation was built with.
         if number > 0 {
             let before = &self.plans[number - 1];

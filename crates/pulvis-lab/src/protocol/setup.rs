@@ -2,12 +2,12 @@
 
 use pulvis_core::walls::{Cosine, Extent, FaceArea, PressureRamp, Servo, Velocity, Wall, WallMotion};
 use pulvis_core::{
-    Background, ContactPartner, Domain, Interactions, MaterialIndex, Particle, Setup, ShortestContact, Simulation,
-    shortest_contact,
+    Background, ContactPartner, Domain, Interactions, MaterialIndex, Particle, Setup, SetupError,
+    ShortestContact, Simulation, shortest_contact,
 };
-use pulvis_input::scenario::{
-    Contact, Scenario, Side, TimeStep, Wall as WallPlan, WallControl,
-};
+use pulvis_input::scenario::{Contact, Scenario, Side, TimeStep, Wall as WallPlan, WallControl};
+
+use pulvis_input::Problem;
 
 use super::error::PrepareError;
 use super::particles::generate;
@@ -42,11 +42,9 @@ pub struct StagePlan {
 
 /// Builds the simulation of a scenario and checks what only its particles can tell.
 pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
-    let file = &scenario.source.name;
     let domain = domain(scenario);
     let particles = generate(scenario, &domain)?;
-    let walls: Vec<Wall> =
-        scenario.walls.iter().map(|plan| wall(scenario, plan)).collect();
+    let walls: Vec<Wall> = scenario.walls.iter().map(|plan| wall(scenario, plan)).collect();
     check_start(scenario, &particles, &walls)?;
     let stages = stages(scenario, &particles, &walls)?;
     let first = &stages[0];
@@ -58,8 +56,7 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
         background: first.background,
         time_step: first.time_step,
     };
-    let simulation =
-        Simulation::new(setup).map_err(|source| PrepareError::Setup { file: file.clone(), source })?;
+    let simulation = Simulation::new(setup).map_err(|error| refuse_setup(scenario, &error))?;
     check_overlaps(scenario, &simulation)?;
     Ok(Prepared { simulation, stages, particles })
 }
@@ -122,15 +119,20 @@ fn time_step(
     match plan {
         TimeStep::Auto { steps_per_contact_time } => Ok(contact / steps_per_contact_time),
         TimeStep::Fixed(step) if step * TimeStep::LEAST_STEPS <= contact => Ok(step),
-        TimeStep::Fixed(step) => Err(PrepareError::TimeStepTooLong {
-            file: scenario.source.name.clone(),
-            key: format!("time.step in stage `{}`", scenario.stages[stage].name),
-            step,
-            contact,
-            between: shortest.map_or_else(String::new, |shortest| between(scenario, &shortest)),
-            least: TimeStep::LEAST_STEPS,
-            longest: contact / TimeStep::LEAST_STEPS,
-        }),
+        TimeStep::Fixed(step) => {
+            let least = TimeStep::LEAST_STEPS;
+            let between = shortest.map_or_else(String::new, |shortest| between(scenario, &shortest));
+            let found = format!(
+                "{step:e} s is longer than 1/{least} of the shortest contact ({contact:.4e} s, {between})"
+            );
+            let expected = format!("at most {:.4e} s", contact / least);
+            let help = "take \"auto\", or soften the contact";
+            // A stage without a step of its own goes on with the one before.
+            let own = (0..=stage).rev().map(|stage| format!("stages[{stage}].time.step"));
+            let paths: Vec<String> = own.chain(["time.step".to_owned()]).collect();
+            let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
+            Err(scenario.mistake(&paths, Problem::rule(found, expected), help).into())
+        }
     }
 }
 
@@ -142,8 +144,7 @@ pub fn between(scenario: &Scenario, contact: &ShortestContact) -> String {
 }
 
 fn wall(scenario: &Scenario, plan: &WallPlan) -> Wall {
-    let mut wall =
-        Wall::fixed(&plan.name, plan.material as MaterialIndex, plan.point, plan.normal);
+    let mut wall = Wall::fixed(&plan.name, plan.material as MaterialIndex, plan.point, plan.normal);
     wall.area = match (plan.area, plan.face) {
         (Some(area), _) => FaceArea::Given(area),
         (None, Some(face)) => {
@@ -177,9 +178,10 @@ pub(super) fn extent(scenario: &Scenario, axis: usize) -> Option<Extent> {
 /// The places of the two box walls of an axis: low, high.
 pub(super) fn box_walls(scenario: &Scenario, axis: usize) -> [Option<usize>; 2] {
     [Side::Low, Side::High].map(|side| {
-        scenario.walls.iter().position(|wall| {
-            wall.face.is_some_and(|face| face.axis.index() == axis && face.side == side)
-        })
+        scenario
+            .walls
+            .iter()
+            .position(|wall| wall.face.is_some_and(|face| face.axis.index() == axis && face.side == side))
     })
 }
 
@@ -201,6 +203,16 @@ pub(super) fn motion(control: &WallControl) -> WallMotion {
     }
 }
 
+/// What the engine refuses, as a mistake of the scenario.
+fn refuse_setup(scenario: &Scenario, error: &SetupError) -> PrepareError {
+    let key = match error {
+        SetupError::ShortPeriod { .. } => "domain",
+        SetupError::TimeStep(_) => "time.step",
+        _ => "contacts",
+    };
+    scenario.mistake(&[key], Problem::rule(error.to_string(), "a system that can be computed"), "").into()
+}
+
 /// Refuses particles whose centres lie behind a wall.
 fn check_start(scenario: &Scenario, particles: &[Particle], walls: &[Wall]) -> Result<(), PrepareError> {
     for (id, particle) in particles.iter().enumerate() {
@@ -208,12 +220,29 @@ fn check_start(scenario: &Scenario, particles: &[Particle], walls: &[Wall]) -> R
             let depth = wall.offset() - particle.position.dot(wall.normal);
             if depth >= 0.0 {
                 let [x, y, z] = particle.position.to_array();
-                let (file, wall) = (scenario.source.name.clone(), wall.name.clone());
-                return Err(PrepareError::Outside { file, id: id as u32, x, y, z, depth, wall });
+                let name = &wall.name;
+                let found = format!(
+                    "particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m is {depth:.3e} m behind wall `{name}`"
+                );
+                let problem = Problem::rule(found, "all particles on the inner side of all walls");
+                let path = format!("{}.arrangement", group_path(scenario, id));
+                return Err(scenario.mistake(&[&path], problem, "move the arrangement or the wall").into());
             }
         }
     }
     Ok(())
+}
+
+/// The path of the group that a particle belongs to.
+fn group_path(scenario: &Scenario, id: usize) -> String {
+    let mut first = 0;
+    for (place, group) in scenario.particles.iter().enumerate() {
+        first += group.count;
+        if id < first {
+            return format!("particles[{place}]");
+        }
+    }
+    "particles".to_owned()
 }
 
 /// Refuses overlaps of more than a tenth of a radius at the start: the elastic energy in them would
@@ -221,20 +250,21 @@ fn check_start(scenario: &Scenario, particles: &[Particle], walls: &[Wall]) -> R
 fn check_overlaps(scenario: &Scenario, simulation: &Simulation) -> Result<(), PrepareError> {
     let particles = simulation.particles();
     let rows = particles.rows_by_id();
-    let mut deepest: Option<PrepareError> = None;
-    let mut depth = 0.0;
+    let mut deepest: Option<(f64, usize, String)> = None;
     simulation.for_each_contact(&mut |contact| {
-        let radius = particles.radii()[rows[contact.first as usize]];
-        let relative = contact.overlap / radius;
-        if relative > 0.1 && relative > depth {
-            depth = relative;
+        let relative = contact.overlap / particles.radii()[rows[contact.first as usize]];
+        if relative > 0.1 && deepest.as_ref().is_none_or(|(depth, ..)| relative > *depth) {
             let partner = match contact.second {
                 ContactPartner::Particle(id) => format!("particle {id}"),
                 ContactPartner::Wall(place) => format!("wall `{}`", simulation.walls()[place].name),
             };
-            let (file, id, overlap) = (scenario.source.name.clone(), contact.first, contact.overlap);
-            deepest = Some(PrepareError::Overlap { file, id, partner, overlap, radius });
+            deepest = Some((relative, contact.first as usize, partner));
         }
     });
-    deepest.map_or(Ok(()), Err)
+    let Some((relative, id, partner)) = deepest else { return Ok(()) };
+    let found =
+        format!("particle {id} overlaps {partner} by {:.0} % of its radius at the start", 100.0 * relative);
+    let problem = Problem::rule(found, "at most 10 %");
+    let path = format!("{}.arrangement", group_path(scenario, id));
+    Err(scenario.mistake(&[&path], problem, "enlarge the spacing or the region").into())
 }
