@@ -1,6 +1,8 @@
 //! One file a command; the list is here.
 
 mod check;
+mod collide;
+mod laws;
 mod run;
 mod words;
 
@@ -17,6 +19,10 @@ pub enum Command {
     Check(check::Arguments),
     /// Runs the stages of a scenario
     Run(run::Arguments),
+    /// Collides two bodies head on, over a sweep of velocities or law parameters
+    Collide(collide::Arguments),
+    /// Lists the contact laws, or describes one in full
+    Laws(laws::Arguments),
 }
 
 impl Command {
@@ -25,6 +31,8 @@ impl Command {
         match self {
             Self::Check(arguments) => check::execute(arguments),
             Self::Run(arguments) => run::execute(arguments),
+            Self::Collide(arguments) => collide::execute(arguments),
+            Self::Laws(arguments) => laws::execute(arguments),
         }
     }
 }

@@ -88,8 +88,8 @@ impl LudingPair {
         let acceleration = wc * wc * to + pull;
         let mean = (wc * wc * (from + to) + 2.0 * pull) / (fast + slow);
         let growth = path * (wc + mean) / (acceleration + wc * slow);
-        if wc * growth < f64::EPSILON {
-            // ln(1 + y) = y at this accuracy, and wc = 0 is no longer divided by.
+        if wc == 0.0 || wc * growth < f64::EPSILON {
+            // Uniform acceleration: ln(1 + y) = y at this accuracy, and nothing is divided by wc = 0.
             return 2.0 * path / (fast + slow);
         }
         (wc * growth).ln_1p() / wc

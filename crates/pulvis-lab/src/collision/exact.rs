@@ -23,6 +23,10 @@ const LONGEST_STEP: f64 = 1.0 / 8.0;
 /// had is at rest.
 const AT_REST: f64 = 1e-26;
 
+/// What is left of the largest energy within this part is round-off: a pair that would separate with
+/// less has used up its energy, which counts as sticking.
+const RESOLUTION: f64 = 1e-13;
+
 /// Collides two bodies.
 ///
 /// # Errors
@@ -65,6 +69,10 @@ struct Flight<'p, N: NormalLaw> {
     end_time: f64,
     next_sample: usize,
     course: Vec<Sample>,
+    /// Time and phase of the last recorded instant.
+    recorded: (f64, Phase),
+    /// The branch travelled last: at its end, a corner, the point lies on two.
+    travelled: Option<Branches>,
     over: bool,
 }
 
@@ -105,6 +113,8 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
             end_time: f64::INFINITY,
             next_sample: 0,
             course: Vec::new(),
+            recorded: (f64::NEG_INFINITY, Phase::Apart),
+            travelled: None,
             over: false,
             dynamics,
             problem,
@@ -267,6 +277,7 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
 
     /// Samples, and decides whether the pair has stuck, rests, or is gone.
     fn after_step(&mut self, outward: bool, branches: &[Branches; 2]) -> Result<(), CollisionError> {
+        self.travelled = Some(branches[1]);
         self.record();
         let turned = outward && self.motion[1] == 0.0;
         let resting = self.touch_time.is_some() && self.at_rest();
@@ -309,7 +320,16 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
     }
 
     fn finish(self) -> Collision {
-        let outcome = self.stop.unwrap_or_else(|| self.outcome(Regime::Rebound, None));
+        let left = self.problem.kinetic(self.motion[1]);
+        let outcome = match (self.stop, self.travelled) {
+            (Some(stop), _) => stop,
+            (None, Some(branches)) if left < RESOLUTION * self.largest_energy => {
+                // The phase has changed already where the contact was all there was.
+                let phase = if self.problem.reach() > 0.0 { Phase::Apart } else { Phase::Contact };
+                Outcome { contact_duration: None, ..self.outcome(Regime::Stick, Some(branches.name(phase))) }
+            }
+            _ => self.outcome(Regime::Rebound, None),
+        };
         Collision { outcome, course: self.course }
     }
 
@@ -317,6 +337,13 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
     fn record(&mut self) {
         match &self.observation.sampling {
             Sampling::None => return,
+            // Round-off may pass a corner twice; one instant of it is enough.
+            Sampling::Every(_)
+                if self.time - self.recorded.0 < 1e-9 * self.longest_step
+                    && self.phase == self.recorded.1 =>
+            {
+                return;
+            }
             Sampling::Every(_) => {}
             Sampling::At(times) => {
                 // The end of a step that was cut to the sample time is that time up to round-off.
@@ -327,12 +354,14 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
                 self.next_sample += 1;
             }
         }
+        self.recorded = (self.time, self.phase);
         self.course.push(self.sample());
     }
 
     fn sample(&self) -> Sample {
         let [overlap, velocity, viscous] = self.motion;
-        let branches = self.dynamics.branches(self.phase, overlap, &self.memory);
+        let here = self.dynamics.branches(self.phase, overlap, &self.memory);
+        let branches = self.travelled.unwrap_or(here);
         let energies = &self.response.energies;
         Sample {
             time: self.time,

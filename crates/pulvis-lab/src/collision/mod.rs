@@ -12,12 +12,14 @@ mod error;
 mod exact;
 mod extrapolation;
 mod outcome;
+mod picture;
 mod problem;
 mod table;
 
 pub use closed_form::{ClosedForm, closed_form};
 pub use error::CollisionError;
 pub use outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
+pub use picture::{figure, sampling_interval};
 pub use table::{COLUMNS, TRAJECTORY_COLUMNS, result_table, trajectory_table};
 
 use problem::Problem;
@@ -64,15 +66,16 @@ pub struct SweepPoint {
     pub theory: Option<ClosedForm>,
 }
 
-/// Computes all collisions of a scenario.
+/// Computes all collisions of a scenario, and with `record` their courses in steps of
+/// [`sampling_interval`].
 ///
 /// # Errors
 /// The first collision that cannot be computed.
-pub fn sweep(scenario: &CollisionScenario, sampling: &Sampling) -> Result<Vec<SweepPoint>, CollisionError> {
+pub fn sweep(scenario: &CollisionScenario, record: bool) -> Result<Vec<SweepPoint>, CollisionError> {
     let time_after_sticking = scenario.time_after_sticking;
-    let observation =
-        Observation { sampling: sampling.clone(), time_after_sticking, ..Observation::default() };
     let point = |case: &CollisionCase| {
+        let sampling = if record { Sampling::Every(sampling_interval(case)) } else { Sampling::None };
+        let observation = Observation { sampling, time_after_sticking, ..Observation::default() };
         let collision = collide(case, &observation)?;
         Ok(SweepPoint { case: case.clone(), collision, theory: closed_form(case) })
     };

@@ -1,0 +1,221 @@
+//! Results as a picture: restitution over the swept variable, force loops, energies over time.
+
+use super::closed_form::closed_form;
+use super::error::CollisionError;
+use super::outcome::{Collision, Observation, Regime, Sample, Sampling};
+use super::problem::Problem;
+use super::{SweepPoint, collide};
+use pulvis_contact::theory::LudingPair;
+use pulvis_input::collision::{CollisionCase, CollisionScenario, SweptVariable, luding_pair};
+use pulvis_io::plot::{Chart, Figure, Series};
+
+/// Points of a theory line.
+const LINE_POINTS: u32 = 600;
+
+/// Force loops in one chart: more cannot be told apart.
+const LOOPS: usize = 4;
+
+/// How long a stuck pair is drawn, in shortest contact times, where the scenario does not say.
+const AFTER_STICKING: f64 = 4.0;
+
+/// Draws a sweep, or a single collision, which has no first chart.
+///
+/// # Errors
+/// A collision that cannot be computed; some are computed again to record their course.
+pub fn figure(scenario: &CollisionScenario, points: &[SweepPoint]) -> Result<Figure, CollisionError> {
+    let mut figure = Figure::new();
+    if let Some(title) = &scenario.title {
+        figure = figure.title(title);
+    }
+    if points.len() > 1 {
+        figure = figure.panel(restitution_chart(scenario, points));
+    }
+    let chosen = representatives(points);
+    let mut courses = Vec::new();
+    for point in &chosen {
+        courses.push((*point, course(scenario, &point.case)?));
+    }
+    let mut loops =
+        Chart::new("Force over overlap").x_label("overlap δ [m]").y_label("force f [N]").zero_line();
+    for (point, course) in &courses {
+        let line = course.course.iter().map(|sample| (sample.overlap, sample.force));
+        loops = loops.series(Series::line(label(scenario, &point.case), line));
+    }
+    figure = figure.panel(loops);
+    // A pair that sticks shows most; otherwise the middle one.
+    let sticking = courses.iter().find(|(point, _)| point.collision.outcome.regime == Regime::Stick);
+    if let Some((point, course)) = sticking.or(courses.get(courses.len() / 2)) {
+        figure = figure.panel(energy_chart(&label(scenario, &point.case), course));
+    }
+    Ok(figure)
+}
+
+/// The longest step between recorded instants: a sixtieth of the shortest contact time [s].
+pub fn sampling_interval(case: &CollisionCase) -> f64 {
+    Problem::new(case).shortest_time / 60.0
+}
+
+fn course(scenario: &CollisionScenario, case: &CollisionCase) -> Result<Collision, CollisionError> {
+    let time_after_sticking = if scenario.time_after_sticking > 0.0 {
+        scenario.time_after_sticking
+    } else {
+        AFTER_STICKING * Problem::new(case).shortest_time
+    };
+    let sampling = Sampling::Every(sampling_interval(case));
+    collide(case, &Observation { sampling, time_after_sticking, ..Observation::default() })
+}
+
+/// A few points over the whole sweep.
+fn representatives(points: &[SweepPoint]) -> Vec<&SweepPoint> {
+    if points.len() <= LOOPS {
+        return points.iter().collect();
+    }
+    let place = |number: usize| (2 * number + 1) * points.len() / (2 * LOOPS);
+    (0..LOOPS).filter_map(|number| points.get(place(number))).collect()
+}
+
+fn label(scenario: &CollisionScenario, case: &CollisionCase) -> String {
+    let value = pulvis_io::table::significant(case.value, 4);
+    let symbol = axis_symbol(&scenario.variable);
+    match scenario.variable.unit() {
+        "1" => format!("{symbol} = {value}"),
+        unit => format!("{symbol} = {value} {unit}"),
+    }
+}
+
+fn axis_symbol(variable: &SweptVariable) -> &str {
+    match variable {
+        SweptVariable::Single | SweptVariable::Velocity => "v",
+        SweptVariable::Chi => "χ",
+        SweptVariable::Zeta => "ζ",
+        SweptVariable::Key { path, .. } => path.rsplit('.').next().unwrap_or(path),
+    }
+}
+
+fn axis_label(variable: &SweptVariable) -> String {
+    match variable {
+        SweptVariable::Single | SweptVariable::Velocity => "relative velocity v [m/s]".to_owned(),
+        SweptVariable::Chi => "impact velocity χ = v/v_p0 [1]".to_owned(),
+        SweptVariable::Zeta => "impact velocity ζ = v/v_p [1]".to_owned(),
+        SweptVariable::Key { path, unit } => format!("{path} [{unit}]"),
+    }
+}
+
+/// e over the swept variable, with the theory line and the limits of the sticking ranges.
+fn restitution_chart(scenario: &CollisionScenario, points: &[SweepPoint]) -> Chart {
+    let mut chart = Chart::new("Coefficient of restitution")
+        .x_label(axis_label(&scenario.variable))
+        .y_label("restitution e [1]");
+    if scenario.logarithmic {
+        chart = chart.log_x();
+    }
+    let theory = theory_line(scenario, points);
+    if theory.iter().any(|(_, restitution)| restitution.is_finite()) {
+        chart = chart.series(Series::line("theory", theory));
+    }
+    let computed = points.iter().map(|point| (point.case.value, point.collision.outcome.restitution));
+    chart = chart.series(Series::points("computed", computed));
+    for (value, name) in limits(scenario, points) {
+        chart = chart.marker(value, name);
+    }
+    chart
+}
+
+/// The closed form between the points where the speed is swept, else at the points.
+fn theory_line(scenario: &CollisionScenario, points: &[SweepPoint]) -> Vec<(f64, f64)> {
+    let restitution = |case: &CollisionCase| closed_form(case).map_or(f64::NAN, |theory| theory.restitution);
+    let ends = points.iter().fold(None, |ends: Option<(f64, f64)>, point| {
+        let value = point.case.value;
+        Some(ends.map_or((value, value), |(low, high)| (low.min(value), high.max(value))))
+    });
+    let (Some((low, high)), Some(first)) = (ends, points.first()) else { return Vec::new() };
+    let Some(unit) = speed_unit(scenario, first) else {
+        let theory = |point: &SweepPoint| point.theory.map_or(f64::NAN, |theory| theory.restitution);
+        return points.iter().map(|point| (point.case.value, theory(point))).collect();
+    };
+    let at = |number: u32| {
+        let share = f64::from(number) / f64::from(LINE_POINTS);
+        let value =
+            if scenario.logarithmic { low * (high / low).powf(share) } else { low + (high - low) * share };
+        let case = CollisionCase { velocity: unit.velocity(value), ..first.case.clone() };
+        (value, restitution(&case))
+    };
+    (0..=LINE_POINTS).map(at).collect()
+}
+
+/// What one unit of the swept variable is in m/s, where it is a speed.
+struct SpeedUnit {
+    pair: Option<LudingPair>,
+    /// [m/s].
+    unit: f64,
+}
+
+impl SpeedUnit {
+    /// The speed outside all ranges at a value of the variable [m/s].
+    fn velocity(&self, value: f64) -> f64 {
+        let touch = value * self.unit;
+        match &self.pair {
+            Some(pair) if pair.pull_in(touch) > 1.0 => (touch * touch - pair.v_fa().powi(2)).max(0.0).sqrt(),
+            _ => touch,
+        }
+    }
+
+    /// The value of the variable at a speed outside all ranges [m/s].
+    fn value(&self, velocity: f64) -> f64 {
+        self.pair.as_ref().map_or(velocity, |pair| pair.touch_velocity(velocity)) / self.unit
+    }
+}
+
+fn speed_unit(scenario: &CollisionScenario, point: &SweepPoint) -> Option<SpeedUnit> {
+    let pair = luding_pair(&point.case.contact, &point.case.bodies.pair());
+    match scenario.variable {
+        SweptVariable::Velocity => Some(SpeedUnit { pair: None, unit: 1.0 }),
+        SweptVariable::Chi => pair.map(|pair| SpeedUnit { pair: Some(pair), unit: pair.v_p0() }),
+        SweptVariable::Zeta => {
+            let pair = pair?;
+            Some(SpeedUnit { pair: Some(pair), unit: pair.v_p()? })
+        }
+        SweptVariable::Single | SweptVariable::Key { .. } => None,
+    }
+}
+
+/// The limits of the sticking ranges within the chart; exact without a dashpot only, so else none.
+fn limits(scenario: &CollisionScenario, points: &[SweepPoint]) -> Vec<(f64, &'static str)> {
+    let Some(first) = points.first() else { return Vec::new() };
+    let Some(unit) = speed_unit(scenario, first) else { return Vec::new() };
+    if closed_form(&first.case).is_none() {
+        return Vec::new();
+    }
+    let Some(pair) = luding_pair(&first.case.contact, &first.case.bodies.pair()) else { return Vec::new() };
+    let velocities = pair.critical_velocities();
+    let (low, high) = points.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), point| {
+        (low.min(point.case.value), high.max(point.case.value))
+    });
+    [
+        (velocities.low_end, "sticks below"),
+        (velocities.high_onset, "sticks from"),
+        (velocities.high_end, "sticks up to"),
+    ]
+    .into_iter()
+    .filter_map(|(velocity, name)| Some((unit.value(velocity?), name)))
+    .filter(|(value, _)| (low..=high).contains(value))
+    .collect()
+}
+
+/// Energies over time of one collision.
+fn energy_chart(label: &str, collision: &Collision) -> Chart {
+    let course = &collision.course;
+    let curve = |of: fn(&Sample) -> f64| course.iter().map(move |sample| (sample.time, of(sample)));
+    let mut chart = Chart::new(format!("Energies, {label}"))
+        .x_label("time t [s]")
+        .y_label("energy [J]")
+        .zero_line()
+        .series(Series::line("kinetic", curve(|sample| sample.kinetic)))
+        .series(Series::line("available (elastic)", curve(|sample| sample.potential_available)))
+        .series(Series::dashed("potential of the branch", curve(|sample| sample.potential_plastic)))
+        .series(Series::line("dissipated", curve(|sample| sample.dissipated)));
+    if course.iter().any(|sample| sample.potential_attraction != 0.0) {
+        chart = chart.series(Series::line("attraction", curve(|sample| sample.potential_attraction)));
+    }
+    chart
+}
