@@ -89,8 +89,7 @@ mod tests {
 
     #[test]
     fn the_nearest_image_is_never_farther_than_half_a_period() {
-        let domain =
-            Domain::periodic(Vector3::zero(), Vector3::new(1.0, 2.0, 3.0), [true, false, true]);
+        let domain = Domain::periodic(Vector3::zero(), Vector3::new(1.0, 2.0, 3.0), [true, false, true]);
         let images = domain.images();
         let nearest = images.nearest(Vector3::new(0.9, 1.9, -2.0));
         assert!((nearest.x + 0.1).abs() < 1e-15);

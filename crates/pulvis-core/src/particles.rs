@@ -49,17 +49,50 @@ pub struct Particles {
 /// Applies `$action` to every column.
 macro_rules! for_each_column {
     ($particles:expr, $column:ident => $action:expr) => {{
-        { let $column = &mut $particles.id; $action; }
-        { let $column = &mut $particles.material; $action; }
-        { let $column = &mut $particles.radius; $action; }
-        { let $column = &mut $particles.mass; $action; }
-        { let $column = &mut $particles.position; $action; }
-        { let $column = &mut $particles.velocity; $action; }
-        { let $column = &mut $particles.spin; $action; }
-        { let $column = &mut $particles.force; $action; }
-        { let $column = &mut $particles.torque; $action; }
-        { let $column = &mut $particles.velocity_predicted; $action; }
-        { let $column = &mut $particles.spin_predicted; $action; }
+        {
+            let $column = &mut $particles.id;
+            $action;
+        }
+        {
+            let $column = &mut $particles.material;
+            $action;
+        }
+        {
+            let $column = &mut $particles.radius;
+            $action;
+        }
+        {
+            let $column = &mut $particles.mass;
+            $action;
+        }
+        {
+            let $column = &mut $particles.position;
+            $action;
+        }
+        {
+            let $column = &mut $particles.velocity;
+            $action;
+        }
+        {
+            let $column = &mut $particles.spin;
+            $action;
+        }
+        {
+            let $column = &mut $particles.force;
+            $action;
+        }
+        {
+            let $column = &mut $particles.torque;
+            $action;
+        }
+        {
+            let $column = &mut $particles.velocity_predicted;
+            $action;
+        }
+        {
+            let $column = &mut $particles.spin_predicted;
+            $action;
+        }
     }};
 }
 

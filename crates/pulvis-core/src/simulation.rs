@@ -45,7 +45,9 @@ pub enum SetupError {
         other: u16,
     },
     /// A period is too short for the rule of the nearest image.
-    #[error("the period {period} m along axis {axis} is shorter than {least} m, twice the search radius; a particle would meet two images of another one")]
+    #[error(
+        "the period {period} m along axis {axis} is shorter than {least} m, twice the search radius; a particle would meet two images of another one"
+    )]
     ShortPeriod {
         /// 0 is x, 1 is y, 2 is z.
         axis: usize,
@@ -56,7 +58,9 @@ pub enum SetupError {
     },
     /// A wall stands across a periodic direction: a particle that leaves through the boundary would
     /// come back on the wall's other side.
-    #[error("wall {wall} stands across axis {axis}, which is periodic; its normal must have no part along a periodic axis")]
+    #[error(
+        "wall {wall} stands across axis {axis}, which is periodic; its normal must have no part along a periodic axis"
+    )]
     WallAcrossPeriod {
         /// Place of the wall in the list of walls.
         wall: usize,
@@ -79,7 +83,9 @@ pub enum SetupError {
 #[non_exhaustive]
 pub enum StepError {
     /// A position is no number any more.
-    #[error("particle {id} was lost in step {step} (t = {time} s): its position is not a number; the time step is too long for the forces that act")]
+    #[error(
+        "particle {id} was lost in step {step} (t = {time} s): its position is not a number; the time step is too long for the forces that act"
+    )]
     Lost {
         /// Which particle.
         id: ParticleId,
@@ -173,9 +179,7 @@ impl Simulation {
         for (place, wall) in self.walls.iter().enumerate() {
             // Normals of rotated boxes come with rounding errors.
             let across = |&axis: &usize| wall.normal[axis].abs() > 1e-12;
-            if let Some(axis) =
-                (0..3).filter(|&axis| self.domain.period(axis).is_some()).find(across)
-            {
+            if let Some(axis) = (0..3).filter(|&axis| self.domain.period(axis).is_some()).find(across) {
                 return Err(SetupError::WallAcrossPeriod { wall: place, axis });
             }
             if matches!(wall.motion, WallMotion::Servo(_)) && wall.area == FaceArea::Unknown {
@@ -383,7 +387,8 @@ impl Simulation {
                 let mut group = ContactGroup::new(model, Partner::Wall(place));
                 let limit = model.reach() + self.skin.thickness;
                 for row in (0..particles.len()).filter(|&row| particles.material[row] == material) {
-                    let gap = particles.position[row].dot(wall.normal) - wall.offset() - particles.radius[row];
+                    let gap =
+                        particles.position[row].dot(wall.normal) - wall.offset() - particles.radius[row];
                     if gap < limit {
                         memory.push_wall(&mut group, place, row as u32, &particles.id);
                     }
@@ -417,8 +422,8 @@ impl Simulation {
             let (mass, inertia) = (particles.mass[row], particles.inertia(row));
             translation += 0.5 * mass * particles.velocity[row].norm_squared();
             rotation += 0.5 * inertia * particles.spin[row].norm_squared();
-            discretisation += particles.force[row].norm_squared() / mass
-                + particles.torque[row].norm_squared() / inertia;
+            discretisation +=
+                particles.force[row].norm_squared() / mass + particles.torque[row].norm_squared() / inertia;
         }
         let held = self.running.contacts;
         let mut ledger = Ledger {

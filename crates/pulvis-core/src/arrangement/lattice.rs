@@ -26,8 +26,7 @@ pub fn lattice(lattice: &Lattice, random: &mut Random) -> Vec<Vector3> {
     for z in 0..nz {
         for y in 0..ny {
             for x in 0..nx {
-                let place =
-                    Vector3::new(x as f64 + jitter(), y as f64 + jitter(), z as f64 + jitter());
+                let place = Vector3::new(x as f64 + jitter(), y as f64 + jitter(), z as f64 + jitter());
                 sites.push(lattice.lower + place * lattice.spacing);
             }
         }

@@ -20,7 +20,9 @@ pub struct Region {
 
 /// There is no room for a sphere.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("no room for sphere {placed} of {wanted} (radius {radius} m) after {attempts} random trials; the solid fraction would be {solid_fraction:.3}")]
+#[error(
+    "no room for sphere {placed} of {wanted} (radius {radius} m) after {attempts} random trials; the solid fraction would be {solid_fraction:.3}"
+)]
 pub struct NoRoom {
     /// Spheres placed before.
     pub placed: usize,
@@ -61,7 +63,8 @@ pub fn random_places(
         });
         let Some(centre) = free else {
             let span = region.upper - region.lower;
-            let solid: f64 = radii.iter().map(|radius| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)).sum();
+            let solid: f64 =
+                radii.iter().map(|radius| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)).sum();
             let solid_fraction = solid / (span.x * span.y * span.z);
             let wanted = radii.len();
             return Err(NoRoom { placed, wanted, radius, attempts: ATTEMPTS, solid_fraction });
@@ -117,9 +120,7 @@ impl Occupied {
         let centre = self.domain.wrapped(centre);
         let (xs, ys, zs) = (shifts(0), shifts(1), shifts(2));
         xs.iter().all(|&x| {
-            ys.iter().all(|&y| {
-                zs.iter().all(|&z| self.is_free_image(centre + Vector3::new(x, y, z), radius))
-            })
+            ys.iter().all(|&y| zs.iter().all(|&z| self.is_free_image(centre + Vector3::new(x, y, z), radius)))
         })
     }
 
@@ -131,7 +132,8 @@ impl Occupied {
         };
         (x - 1..=x + 1).all(|x| {
             (y - 1..=y + 1).all(|y| {
-                (z - 1..=z + 1).all(|z| self.cells.get(&[x, y, z]).is_none_or(|cell| !cell.iter().any(overlaps)))
+                (z - 1..=z + 1)
+                    .all(|z| self.cells.get(&[x, y, z]).is_none_or(|cell| !cell.iter().any(overlaps)))
             })
         })
     }
@@ -152,8 +154,7 @@ mod tests {
     fn spheres_lie_in_the_region_and_do_not_overlap_not_even_across_a_periodic_boundary() {
         let domain = Domain::periodic(Vector3::zero(), Vector3::new(1.0, 1.0, 1.0), [true, false, true]);
         let radii: Vec<f64> = (0..200).map(|i| 0.03 + 0.0001 * f64::from(i)).collect();
-        let places =
-            random_places(&radii, &unit_cube(), &domain, &[], &mut random_stream(3)).unwrap();
+        let places = random_places(&radii, &unit_cube(), &domain, &[], &mut random_stream(3)).unwrap();
         let images = domain.images();
         for i in 0..radii.len() {
             assert!(places[i].y >= radii[i] && places[i].y <= 1.0 - radii[i]);
@@ -167,8 +168,7 @@ mod tests {
     #[test]
     fn too_many_spheres_are_refused_with_the_solid_fraction() {
         let radii = vec![0.1; 200];
-        let error =
-            random_places(&radii, &unit_cube(), &Domain::unbounded(), &[], &mut random_stream(3));
+        let error = random_places(&radii, &unit_cube(), &Domain::unbounded(), &[], &mut random_stream(3));
         let error = error.unwrap_err();
         assert!(error.placed < 200 && error.solid_fraction > 0.8);
     }

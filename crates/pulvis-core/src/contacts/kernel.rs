@@ -162,12 +162,8 @@ fn sweep_pairs<N: NormalLaw, const FRICTION: bool>(
             spin_i_mid: spins[2],
             spin_j_mid: spins[3],
         };
-        let pair = Pair::spheres(
-            gather(moving.mass, &first),
-            gather(moving.mass, &second),
-            radius_i,
-            radius_j,
-        );
+        let pair =
+            Pair::spheres(gather(moving.mass, &first), gather(moving.mass, &second), radius_i, radius_j);
         let memory = &mut group.memory[block * columns..(block + 1) * columns];
         let answer = respond::<N, FRICTION>(&law, &composition, &layout, &pair, &motion, time_step, memory);
         energies += answer.energies;

@@ -51,6 +51,11 @@ impl Layout {
         self.columns
     }
 
+    /// The columns of the normal law among those of a block.
+    pub(crate) fn normal_memory<'a>(&self, columns: &'a [Lane]) -> &'a [Lane] {
+        &columns[..self.normal_columns]
+    }
+
     /// The memory of a block, read from its columns.
     #[inline(always)]
     pub(crate) fn load<M: Memory<Lane>>(&self, columns: &[Lane]) -> ContactMemory<Lane, M> {
@@ -126,12 +131,8 @@ mod tests {
 
     #[test]
     fn a_switch_of_laws_keeps_what_both_remember() {
-        let slider = SpringSlider {
-            stiffness: 1.0,
-            dashpot: 0.0,
-            dynamic_coefficient: 1.0,
-            static_coefficient: 1.0,
-        };
+        let slider =
+            SpringSlider { stiffness: 1.0, dashpot: 0.0, dynamic_coefficient: 1.0, static_coefficient: 1.0 };
         let mut full = ContactModel::frictionless(luding());
         full.composition.sliding = Some(slider);
         full.composition.torsion = Some(slider);

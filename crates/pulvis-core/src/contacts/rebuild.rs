@@ -21,10 +21,7 @@ const NO_WALL: u32 = u32::MAX;
 
 impl MemoryStore {
     /// The memory of the groups' contacts.
-    pub(crate) fn gather<'a>(
-        groups: impl Iterator<Item = &'a ContactGroup>,
-        ids: &[ParticleId],
-    ) -> Self {
+    pub(crate) fn gather<'a>(groups: impl Iterator<Item = &'a ContactGroup>, ids: &[ParticleId]) -> Self {
         let mut store = Self::default();
         for group in groups {
             let layout = store.layouts.len() as u16;

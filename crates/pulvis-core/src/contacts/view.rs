@@ -87,8 +87,7 @@ impl Views<'_> {
         let columns = group.layout.columns();
         let block_memory = &group.memory[block * columns..(block + 1) * columns];
         let mut memory: Vec<Lane> = block_memory.iter().map(|column| Lane::splat(column.0[lane])).collect();
-        let answer =
-            respond::<N, true>(law, composition, &group.layout, &pair, &motion, 0.0, &mut memory);
+        let answer = respond::<N, true>(law, composition, &group.layout, &pair, &motion, 0.0, &mut memory);
         let force = answer.force.lane(0);
         let at_distance = motion.overlap.lane(0) <= 0.0;
         if at_distance && force == Vector3::zero() {
@@ -102,7 +101,7 @@ impl Views<'_> {
             overlap: motion.overlap.lane(0),
             force,
             normal_force: answer.normal_force.lane(0),
-            memory: memory.first().map_or(0.0, |column| column.lane(0)),
+            memory: group.layout.normal_memory(&memory).first().map_or(0.0, |column| column.lane(0)),
         })
     }
 

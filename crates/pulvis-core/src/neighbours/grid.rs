@@ -111,8 +111,11 @@ impl CellGrid {
     /// axis, several directions lead to the same cell.
     fn later_neighbours(&self, cell: usize, adjacent: &mut Vec<usize>) {
         adjacent.clear();
-        let place =
-            [cell % self.cells[0], cell / self.cells[0] % self.cells[1], cell / self.cells[0] / self.cells[1]];
+        let place = [
+            cell % self.cells[0],
+            cell / self.cells[0] % self.cells[1],
+            cell / self.cells[0] / self.cells[1],
+        ];
         let along = |axis: usize, step: isize| -> Option<usize> {
             let count = self.cells[axis] as isize;
             let moved = place[axis] as isize + step;

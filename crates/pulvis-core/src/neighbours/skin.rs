@@ -33,7 +33,11 @@ impl Skin {
 
     /// Whether anything has moved half a skin since the list was made: two bodies can then have
     /// come closer by a whole skin.
-    pub(crate) fn outdated(&self, positions: &[Vector3], wall_offsets: impl Iterator<Item = f64>) -> Outdated {
+    pub(crate) fn outdated(
+        &self,
+        positions: &[Vector3],
+        wall_offsets: impl Iterator<Item = f64>,
+    ) -> Outdated {
         let limit = 0.25 * self.thickness * self.thickness;
         let moved = positions.iter().zip(&self.positions).any(|(now, before)| {
             // Written so that a NaN counts as moved.

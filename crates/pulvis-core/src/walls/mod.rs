@@ -157,7 +157,14 @@ impl WallState {
 
     /// Takes in the force of the particles at the end of the step, books the work done on them
     /// (trapezoidal rule along the wall's path) and finishes the velocity of a servo.
-    pub(crate) fn finish(&mut self, wall: &Wall, force: Vector3, area: Option<f64>, time: f64, time_step: f64) {
+    pub(crate) fn finish(
+        &mut self,
+        wall: &Wall,
+        force: Vector3,
+        area: Option<f64>,
+        time: f64,
+        time_step: f64,
+    ) {
         let work = -0.5 * (self.force + force).dot(self.displacement);
         match wall.motion {
             WallMotion::Servo(_) => self.work_servo += work,

@@ -1,0 +1,61 @@
+//! Small grains between large ones.
+//!
+//! Springs that are stretched with velocities of one instant along normals of another take in a part
+//! of the normal motion as sliding. Between grains of very different size that part is large: a small
+//! grain sticks where it should slip (Vyas et al., arXiv:2410.14798).
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::*;
+use pulvis_contact::{ContactModel, Linear};
+use pulvis_core::Setup;
+use pulvis_math::Vector3;
+
+const RATIO: f64 = 10.0;
+
+/// A small grain in the neck of two large ones that close in on it from both sides, all with friction.
+/// At a height where both contact normals stand at `slope` to the line of the large centres.
+fn neck(friction: f64, slope: f64) -> Setup {
+    let mut model = ContactModel::frictionless(Linear::new(1000.0, 0.0));
+    model.composition.sliding = Some(slider(1000.0 * 2.0 / 7.0, 0.0, friction));
+    let large = RATIO * RADIUS;
+    let apart = large + RADIUS;
+    let place = vector(apart * slope.cos(), 0.0, -apart * slope.sin());
+    let speed = 0.02;
+    let grains = vec![
+        sphere(Vector3::zero(), Vector3::zero(), RADIUS),
+        sphere(place, vector(-speed, 0.0, 0.0), large),
+        sphere(vector(-place.x, 0.0, place.z), vector(speed, 0.0, 0.0), large),
+    ];
+    setup(grains, model)
+}
+
+#[test]
+fn a_small_grain_between_large_ones_moves_the_same_with_a_tenth_of_the_step() {
+    // From hardly any friction to more than the neck's tangent, which locks the grain.
+    for friction in [0.05, 0.2, 0.5] {
+        let [coarse, fine] = [50.0, 500.0].map(|steps_per_contact| {
+            let mut neck = start(neck(friction, 0.35), steps_per_contact);
+            advance(&mut neck, (30.0 * steps_per_contact) as usize);
+            states(&neck)[0]
+        });
+        let moved = fine.position.z.abs().max(1e-3 * RADIUS);
+        let apart = (coarse.position - fine.position).norm();
+        assert!(apart < 1e-3 * moved, "friction {friction}: {apart} of {moved}");
+    }
+}
+
+#[test]
+fn a_grain_slips_out_of_the_neck_below_the_locking_friction_only() {
+    // Two contacts at the angle s to the horizontal lock a light grain from μ = tan s on: 0.365.
+    let squeezed = |friction: f64| {
+        let mut neck = start(neck(friction, 0.35), 50.0);
+        advance(&mut neck, 1_500);
+        (states(&neck)[0].position.z / RADIUS, neck.ledger().dissipated_sliding)
+    };
+    let [(slipping, lost), (locked, lost_locked)] = [0.2, 0.5].map(squeezed);
+    assert!(slipping > 0.4 && lost > 0.0, "{slipping} {lost}");
+    // The springs of the locked contacts still give way.
+    assert!(locked < 0.1 && lost_locked == 0.0, "{locked} {lost_locked}");
+}
