@@ -193,7 +193,7 @@ impl Simulation {
         let least = 2.0 * self.search_radius();
         for axis in 0..3 {
             match self.domain.period(axis) {
-                Some(period) if !(period >= least) => {
+                Some(period) if period < least || period.is_nan() => {
                     return Err(SetupError::ShortPeriod { axis, period, least });
                 }
                 _ => {}

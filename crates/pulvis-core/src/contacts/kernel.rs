@@ -260,8 +260,8 @@ fn sweep_wall<N: NormalLaw, const FRICTION: bool>(
         let memory = &mut group.memory[block * columns..(block + 1) * columns];
         let answer = respond::<N, FRICTION>(&law, &composition, &layout, &pair, &motion, time_step, memory);
         energies += answer.energies;
-        for lane in 0..filled {
-            let row = rows[lane] as usize;
+        for (lane, &row) in rows.iter().enumerate().take(filled) {
+            let row = row as usize;
             let force = answer.force.lane(lane);
             totals.force[row] += force;
             total += force;

@@ -40,8 +40,8 @@ impl Skin {
     ) -> Outdated {
         let limit = 0.25 * self.thickness * self.thickness;
         let moved = positions.iter().zip(&self.positions).any(|(now, before)| {
-            // Written so that a NaN counts as moved.
-            !((*now - *before).norm_squared() <= limit)
+            let squared = (*now - *before).norm_squared();
+            squared > limit || squared.is_nan()
         });
         if moved && let Some(lost) = positions.iter().position(|position| !position.is_finite()) {
             return Outdated::Lost(lost);
