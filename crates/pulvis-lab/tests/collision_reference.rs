@@ -1,6 +1,6 @@
 //! Collisions against the reference values of the papers' figures.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
 
 mod reference;
 

@@ -1,6 +1,6 @@
 //! Collisions of unequal bodies, at walls, with attraction and dashpots against closed forms.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
 
 use pulvis_input::Document;
 use pulvis_input::collision::CollisionScenario;
@@ -172,4 +172,74 @@ fn at_the_very_limit_of_sticking_what_is_left_is_round_off_and_the_pair_sticks()
     assert_eq!(point.collision.outcome.regime, Regime::Stick);
     assert_eq!(point.collision.outcome.restitution, 0.0);
     assert_eq!(point.collision.outcome.contact_duration, None);
+}
+
+#[test]
+fn four_hundred_arbitrary_pairs_follow_theory() {
+    // A multiplicative generator (Lehmer 1951) is random enough to reach odd corners, and repeats.
+    let mut state = 20_150_303_u64;
+    let mut uniform = || {
+        state = state * 48_271 % 2_147_483_647;
+        state as f64 / 2_147_483_647.0
+    };
+    let mut sticks = 0;
+    for number in 0..400 {
+        let mut log = |from: f64, to: f64| from * (to / from).powf(uniform());
+        let (k1, kp, kc) = (log(10.0, 1e4), log(1.0, 60.0), log(0.01, 6.0));
+        let (radii, densities) =
+            ([log(1e-5, 1e-2), log(1e-5, 1e-2)], [log(500.0, 9000.0), log(500.0, 9000.0)]);
+        let (phi_f, chi) = (log(0.01, 0.3), log(0.01, 4.0));
+        // f_a in units of k1 δ_p/2, up to which the attraction alone does not flatten the contact.
+        let harmonic = 2.0 * radii[0] * radii[1] / (radii[0] + radii[1]);
+        let f_a = log(1e-5, 0.3) * 0.5 * k1 * phi_f * harmonic;
+        let kc_a = k1 * log(0.1, 30.0);
+        let law = ["none", "jump-in", "reversible"][number % 3];
+        let interpolation = ["linear", "square-root"][number / 3 % 2];
+        let bodies = if number % 5 == 0 {
+            format!("bodies = \"wall\"\nradius = \"{} m\"\ndensity = \"{} kg/m^3\"", radii[0], densities[0])
+        } else {
+            format!(
+                "bodies = \"pair\"\nradius = [\"{} m\", \"{} m\"]\ndensity = [\"{} kg/m^3\", \"{} kg/m^3\"]",
+                radii[0], radii[1], densities[0], densities[1]
+            )
+        };
+        let attraction = if law == "none" {
+            String::new()
+        } else {
+            format!("[contact.noncontact]\nlaw = \"{law}\"\nf_a = \"{f_a} N\"\nkc_a = \"{kc_a} N/m\"\n")
+        };
+        let laws = format!(
+            "[contact.normal]\nlaw = \"luding\"\nk1 = \"{k1} N/m\"\nkp = \"{} N/m\"\nkc = \"{} N/m\"\nphi_f = {phi_f}\ninterpolation = \"{interpolation}\"\n{attraction}",
+            k1 * (1.0 + kp),
+            k1 * kc
+        );
+        let velocity = scenario(
+            &format!("{bodies}\nvelocity = \"1 m/s\""),
+            "variable = \"contact.normal.kc\"\nvalues = [1]",
+            &laws,
+        );
+        let case = &velocity.cases[0];
+        let unit = pulvis_input::collision::luding_pair(&case.contact, &case.bodies.pair()).unwrap().v_p0();
+        let speed = format!("variable = \"velocity\"\nvalues = [{}]", chi * unit);
+        let point = &points(&bodies, &speed, &laws)[0];
+        let (got, theory) = (point.collision.outcome, point.theory.unwrap());
+        assert_eq!(got.regime, theory.regime, "{number}: {laws}");
+        // Errors of energy grow by 1/e² in e, next to thresholds.
+        let tolerance = 1e-12 / theory.restitution.powi(2).max(1e-4) + 1e-10;
+        assert!(
+            (got.restitution - theory.restitution).abs() <= tolerance * theory.restitution,
+            "{number}: {got:?} {theory:?}"
+        );
+        assert!((got.overlap_max / theory.overlap_max - 1.0).abs() < 1e-10, "{number}: {got:?} {theory:?}");
+        assert!(
+            (got.overlap_end - theory.overlap_end).abs() < 1e-9 * theory.overlap_max,
+            "{number}: {got:?} {theory:?}"
+        );
+        assert!(
+            (got.energy_dissipated / theory.energy_dissipated - 1.0).abs() < 1e-9,
+            "{number}: {got:?} {theory:?}"
+        );
+        sticks += usize::from(got.regime == Regime::Stick);
+    }
+    assert!((40..360).contains(&sticks), "{sticks} of 400 stick");
 }

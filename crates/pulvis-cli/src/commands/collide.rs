@@ -71,8 +71,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 /// The results in a format of the table writer; in `text`, rounded.
 fn results(scenario: &CollisionScenario, points: &[SweepPoint], format: &str) -> Result<String, Failure> {
-    let table = result_table(scenario, points).map_err(Failure::while_running)?;
-    if format == "text" {
+    let text = format == "text";
+    let table = result_table(scenario, points, text).map_err(Failure::while_running)?;
+    if text {
         return Ok(format!("all quantities in SI units\n\n{}", table.to_text(DIGITS)));
     }
     let format = pulvis_io::table::format(format).map_err(Failure::bad_input)?;

@@ -49,10 +49,10 @@ pub(super) fn try_step<const N: usize>(
     for column in 0..COLUMNS {
         let mut entry = midpoint(start, &start_rate, step, 2 * (column + 1), &rate);
         // Neville's scheme, in place: `table[m]` is the row before, of degree m.
-        for degree in 0..column {
+        for (degree, slot) in table.iter_mut().enumerate().take(column) {
             let ratio = substeps(column) / substeps(column - degree - 1);
             let weight = 1.0 / (ratio * ratio - 1.0);
-            let before = std::mem::replace(&mut table[degree], entry);
+            let before = std::mem::replace(slot, entry);
             for n in 0..N {
                 entry[n] += (entry[n] - before[n]) * weight;
             }

@@ -8,6 +8,7 @@ use pulvis_io::table::{Cell, Table};
 
 /// The columns of every result table, in SI units.
 pub const COLUMNS: [&str; 14] = [
+    // The first ten are what people look at.
     "velocity",
     "chi",
     "zeta",
@@ -38,19 +39,28 @@ pub const TRAJECTORY_COLUMNS: [&str; 10] = [
     "potential_attraction",
 ];
 
+/// How many of the columns a table for the screen has.
+const BRIEF: usize = 10;
+
 /// One row a collision; where a parameter is swept, its value stands in one more column, the last.
+/// A `brief` table leaves out what would not fit on a screen.
 ///
 /// # Errors
 /// None in practice: every row has all columns.
-pub fn result_table(scenario: &CollisionScenario, points: &[SweepPoint]) -> Result<Table, IoError> {
+pub fn result_table(
+    scenario: &CollisionScenario,
+    points: &[SweepPoint],
+    brief: bool,
+) -> Result<Table, IoError> {
+    let count = if brief { BRIEF } else { COLUMNS.len() };
     let key = match &scenario.variable {
         SweptVariable::Key { path, .. } => Some(path.as_str()),
         _ => None,
     };
-    let mut table = Table::new(COLUMNS.into_iter().chain(key));
+    let mut table = Table::new(COLUMNS.into_iter().take(count).chain(key));
     for point in points {
         let value = key.map(|_| Cell::Number(point.case.value));
-        table.push(cells(point).into_iter().chain(value))?;
+        table.push(cells(point).into_iter().take(count).chain(value))?;
     }
     Ok(table)
 }

@@ -5,11 +5,15 @@
 //! both the step ends: its length is halved until the event is met to round-off. Then the memory is
 //! updated, and what the laws lost on the way is booked.
 
+mod account;
+mod events;
+
 use super::dynamics::{Branches, Dynamics, Motion, Phase};
 use super::error::CollisionError;
 use super::extrapolation::{Trial, try_step};
 use super::outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
 use super::problem::Problem;
+use events::Event;
 use pulvis_contact::{ContactMemory, ContactResponse, NormalLaw};
 
 /// More steps than any collision should take: overdamped pairs creep, but not that long.
@@ -18,14 +22,6 @@ const MOST_STEPS: u64 = 2_000_000;
 /// Part of the shortest contact time that a step may cover at most, so that no pair of turning points
 /// falls between its ends.
 const LONGEST_STEP: f64 = 1.0 / 8.0;
-
-/// A pair whose kinetic energy and elastic energy about the force-free point are this part of what it
-/// had is at rest.
-const AT_REST: f64 = 1e-26;
-
-/// What is left of the largest energy within this part is round-off: a pair that would separate with
-/// less has used up its energy, which counts as sticking.
-const RESOLUTION: f64 = 1e-13;
 
 /// Collides two bodies.
 ///
@@ -74,15 +70,6 @@ struct Flight<'p, N: NormalLaw> {
     /// The branch travelled last: at its end, a corner, the point lies on two.
     travelled: Option<Branches>,
     over: bool,
-}
-
-/// What ended a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Event {
-    None,
-    Branch,
-    Turn,
-    Border,
 }
 
 impl<'p, N: NormalLaw> Flight<'p, N> {
@@ -135,7 +122,6 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
             let (velocity, steps, time) = (self.problem.velocity, self.steps, self.time);
             return Err(CollisionError::TooLong { velocity, steps, time });
         }
-        let (velocity, time) = (self.problem.velocity, self.time);
         let outward = self.motion[1] < 0.0 || (self.motion[1] == 0.0 && self.response.normal_force > 0.0);
         let direction = if outward { -1.0 } else { 1.0 };
         // A corner between branches, a turning point above all, lies on two: the one that the law
@@ -144,21 +130,7 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
         let branches =
             [self.motion[0], ahead].map(|overlap| self.dynamics.branches(self.phase, overlap, &self.memory));
 
-        let allowed = self.time_allowed();
-        let (length, trial) = loop {
-            let length = self.step_length.min(allowed);
-            let trial = self.attempt(length);
-            if !trial.end.iter().all(|number| number.is_finite())
-                && self.step_length < 1e-12 * self.longest_step
-            {
-                return Err(CollisionError::NotFinite { velocity, time });
-            }
-            // A kink that no branch number tells of stops the refinement here.
-            if trial.error <= 1.0 || length <= 1e-13 * self.longest_step {
-                break (length, trial);
-            }
-            self.step_length = length * if trial.error.is_finite() { trial.factor().min(0.7) } else { 0.1 };
-        };
+        let (length, trial) = self.refine()?;
         let grown = (length * trial.factor()).min(self.longest_step);
         // A step cut short by a sample time says nothing about the next one.
         self.step_length = if length < self.step_length { self.step_length.max(grown) } else { grown };
@@ -168,7 +140,27 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
         } else {
             self.advance_to_event(length, direction, &branches);
         }
-        self.after_step(outward, &branches)
+        self.after_step(outward, &branches);
+        Ok(())
+    }
+
+    /// Shortens the step until its error is allowed.
+    fn refine(&mut self) -> Result<(f64, Trial<3>), CollisionError> {
+        let allowed = self.time_allowed();
+        loop {
+            let length = self.step_length.min(allowed);
+            let trial = self.attempt(length);
+            let finite = trial.end.iter().all(|number| number.is_finite());
+            if !finite && length < 1e-12 * self.longest_step {
+                let (velocity, time) = (self.problem.velocity, self.time);
+                return Err(CollisionError::NotFinite { velocity, time });
+            }
+            // A kink that no branch number tells of stops the refinement here.
+            if finite && (trial.error <= 1.0 || length <= 1e-13 * self.longest_step) {
+                return Ok((length, trial));
+            }
+            self.step_length = length * if trial.error.is_finite() { trial.factor().min(0.7) } else { 0.1 };
+        }
     }
 
     fn attempt(&self, length: f64) -> Trial<3> {
@@ -186,55 +178,6 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
             allowed = allowed.min(next - self.time);
         }
         allowed
-    }
-
-    fn event(&self, trial: &Trial<3>, direction: f64, branches: &[Branches; 2]) -> Event {
-        let [overlap, velocity, _] = trial.end;
-        let left = match self.phase {
-            Phase::Contact => overlap <= 0.0,
-            Phase::Apart => overlap >= 0.0,
-        };
-        if left {
-            Event::Border
-        } else if velocity * direction <= 0.0 {
-            Event::Turn
-        } else if !branches.contains(&self.dynamics.branches(self.phase, overlap, &self.memory)) {
-            Event::Branch
-        } else {
-            Event::None
-        }
-    }
-
-    /// Halves the step until the event is met to round-off, and stops just behind it.
-    fn advance_to_event(&mut self, length: f64, direction: f64, branches: &[Branches; 2]) {
-        let (mut before, mut behind) = (0.0, length);
-        loop {
-            let middle = 0.5 * (before + behind);
-            if middle <= before || middle >= behind || behind - before < 1e-17 * self.longest_step {
-                break;
-            }
-            if self.event(&self.attempt(middle), direction, branches) == Event::None {
-                before = middle;
-            } else {
-                behind = middle;
-            }
-        }
-        let trial = self.attempt(behind);
-        let event = self.event(&trial, direction, branches);
-        let mut end = trial.end;
-        match event {
-            // Exactly: the laws and the next step shall not see round-off of the wrong sign.
-            Event::Border => end[0] = 0.0,
-            Event::Turn => end[1] = 0.0,
-            Event::Branch | Event::None => {}
-        }
-        self.accept(behind, &end);
-        if event == Event::Border {
-            if self.phase == Phase::Contact && matches!(self.observation.sampling, Sampling::Every(_)) {
-                self.record();
-            }
-            self.cross_border();
-        }
     }
 
     /// Moves to the end of a step.
@@ -276,7 +219,7 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
     }
 
     /// Samples, and decides whether the pair has stuck, rests, or is gone.
-    fn after_step(&mut self, outward: bool, branches: &[Branches; 2]) -> Result<(), CollisionError> {
+    fn after_step(&mut self, outward: bool, branches: &[Branches; 2]) {
         self.travelled = Some(branches[1]);
         self.record();
         let turned = outward && self.motion[1] == 0.0;
@@ -289,96 +232,5 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
         let here = self.dynamics.branches(self.phase, self.motion[0], &self.memory);
         let gone = self.phase == Phase::Apart && self.touch_time.is_some() && !here.attracted;
         self.over = self.time >= self.end_time || (gone && self.motion[1] < 0.0);
-        Ok(())
-    }
-
-    fn at_rest(&self) -> bool {
-        let force = self.response.normal_force;
-        let least = AT_REST * self.scale[2];
-        self.phase == Phase::Contact
-            && self.problem.kinetic(self.motion[1]) < least
-            && force * force < least * self.problem.stiffness_scale()
-    }
-
-    fn outcome(&self, regime: Regime, stop_branch: Option<&'static str>) -> Outcome {
-        let kinetic = self.problem.kinetic(self.motion[1]);
-        let before = self.problem.kinetic(self.problem.velocity);
-        let energies = &self.response.energies;
-        let dissipated = self.lost + self.motion[2];
-        let now = kinetic + energies.elastic_normal + energies.adhesive_potential + dissipated;
-        let rebound = regime == Regime::Rebound;
-        Outcome {
-            regime,
-            stop_branch,
-            restitution: if rebound { -self.motion[1] / self.problem.velocity } else { 0.0 },
-            overlap_max: self.overlap_max,
-            overlap_end: if rebound { 0.0 - self.problem.reach() } else { self.motion[0] },
-            contact_duration: self.opening_time.zip(self.touch_time).map(|(end, start)| end - start),
-            energy_dissipated: dissipated,
-            energy_error: (before - now) / self.largest_energy,
-        }
-    }
-
-    fn finish(self) -> Collision {
-        let left = self.problem.kinetic(self.motion[1]);
-        let outcome = match (self.stop, self.travelled) {
-            (Some(stop), _) => stop,
-            (None, Some(branches)) if left < RESOLUTION * self.largest_energy => {
-                // The phase has changed already where the contact was all there was.
-                let phase = if self.problem.reach() > 0.0 { Phase::Apart } else { Phase::Contact };
-                Outcome { contact_duration: None, ..self.outcome(Regime::Stick, Some(branches.name(phase))) }
-            }
-            _ => self.outcome(Regime::Rebound, None),
-        };
-        Collision { outcome, course: self.course }
-    }
-
-    /// Keeps this instant if it is asked for.
-    fn record(&mut self) {
-        match &self.observation.sampling {
-            Sampling::None => return,
-            // Round-off may pass a corner twice; one instant of it is enough.
-            Sampling::Every(_)
-                if self.time - self.recorded.0 < 1e-9 * self.longest_step
-                    && self.phase == self.recorded.1 =>
-            {
-                return;
-            }
-            Sampling::Every(_) => {}
-            Sampling::At(times) => {
-                // The end of a step that was cut to the sample time is that time up to round-off.
-                let due = |time: &f64| *time <= self.time + 1e-15 * self.longest_step.max(self.time);
-                if !times.get(self.next_sample).is_some_and(due) {
-                    return;
-                }
-                self.next_sample += 1;
-            }
-        }
-        self.recorded = (self.time, self.phase);
-        self.course.push(self.sample());
-    }
-
-    fn sample(&self) -> Sample {
-        let [overlap, velocity, viscous] = self.motion;
-        let here = self.dynamics.branches(self.phase, overlap, &self.memory);
-        let branches = self.travelled.unwrap_or(here);
-        let energies = &self.response.energies;
-        Sample {
-            time: self.time,
-            overlap,
-            velocity,
-            force: self.response.normal_force,
-            delta_max: self.dynamics.remembered_overlap(&self.memory).unwrap_or(self.overlap_max),
-            kinetic: self.problem.kinetic(velocity),
-            potential_available: energies.elastic_normal,
-            potential_plastic: self.dynamics.branch_potential(
-                &branches,
-                overlap,
-                &self.response,
-                &self.memory,
-            ),
-            potential_attraction: energies.adhesive_potential,
-            dissipated: self.lost + viscous,
-        }
     }
 }
