@@ -1,0 +1,110 @@
+//! Contacts as a settled bed has them, without the bed.
+
+use std::f64::consts::TAU;
+
+use pulvis_contact::{ContactEnergies, ContactMemory, NormalLaw, Pair, PairMotion};
+use pulvis_math::{Real, Vector3};
+
+/// Contacts in all: what they need stays in the first-level cache.
+const COUNT: usize = 64;
+
+/// Constants and motions of the contacts. The motions come twice, so that contacts load and unload.
+pub(super) struct Contacts<R> {
+    pub(super) pairs: Vec<Pair<R>>,
+    pub(super) motions: [Vec<PairMotion<R>>; 2],
+}
+
+/// What the sweeps write.
+pub(super) struct Store<R: Real, N: NormalLaw> {
+    pub(super) memory: Vec<ContactMemory<R, N::Memory<R>>>,
+    /// Force, torque on i, torque on j.
+    pub(super) forces: Vec<[Vector3<R>; 3]>,
+    pub(super) energies: ContactEnergies<R>,
+}
+
+impl<R: Real> Contacts<R> {
+    /// The same contacts whatever `R` is.
+    pub(super) fn new() -> Self {
+        let groups = COUNT / R::LANES;
+        let spread =
+            |group: usize, value: &dyn Fn(usize) -> f64| R::from_lanes(|lane| value(group * R::LANES + lane));
+        let pair = |group: usize| {
+            let radius_i = spread(group, &|contact| radius(2 * contact));
+            let radius_j = spread(group, &|contact| radius(2 * contact + 1));
+            let mass_i = spread(group, &|contact| mass(radius(2 * contact)));
+            let mass_j = spread(group, &|contact| mass(radius(2 * contact + 1)));
+            Pair::spheres(mass_i, mass_j, radius_i, radius_j)
+        };
+        let motion = |group: usize, turn: usize| {
+            let vector = |value: fn(usize, usize, usize) -> f64| {
+                let along = |axis: usize| spread(group, &|contact| value(contact, turn, axis));
+                Vector3::new(along(0), along(1), along(2))
+            };
+            PairMotion {
+                normal: vector(|contact, _, axis| normal(contact)[axis]),
+                overlap: spread(group, &|contact| overlap(contact, turn)),
+                inverse_distance: spread(group, &|contact| {
+                    1.0 / (radius(2 * contact) + radius(2 * contact + 1) - overlap(contact, turn))
+                }),
+                radius_i: spread(group, &|contact| radius(2 * contact)),
+                radius_j: spread(group, &|contact| radius(2 * contact + 1)),
+                velocity: vector(|contact, turn, axis| velocity(5 * contact, turn, axis)),
+                velocity_mid: vector(|contact, turn, axis| velocity(5 * contact, turn, axis)),
+                spin_i: vector(|contact, turn, axis| 2e3 * velocity(5 * contact + 1, turn, axis)),
+                spin_j: vector(|contact, turn, axis| 2e3 * velocity(5 * contact + 2, turn, axis)),
+                spin_i_mid: vector(|contact, turn, axis| 2e3 * velocity(5 * contact + 1, turn, axis)),
+                spin_j_mid: vector(|contact, turn, axis| 2e3 * velocity(5 * contact + 2, turn, axis)),
+            }
+        };
+        Self {
+            pairs: (0..groups).map(pair).collect(),
+            motions: [0, 1].map(|turn| (0..groups).map(|group| motion(group, turn)).collect()),
+        }
+    }
+
+    /// Number of contacts.
+    pub(super) fn count(&self) -> usize {
+        self.pairs.len() * R::LANES
+    }
+}
+
+impl<R: Real, N: NormalLaw> Store<R, N> {
+    /// Virgin contacts.
+    pub(super) fn new(contacts: &Contacts<R>) -> Self {
+        Self {
+            memory: vec![ContactMemory::default(); contacts.pairs.len()],
+            forces: vec![Default::default(); contacts.pairs.len()],
+            energies: ContactEnergies::default(),
+        }
+    }
+}
+
+/// Numbers between −1 and 1 that follow no pattern.
+fn noise(seed: usize) -> f64 {
+    (1e4 * (1.0 + seed as f64).sin()).sin()
+}
+
+/// 0.5 mm ± 20 %.
+fn radius(body: usize) -> f64 {
+    0.5e-3 * (1.0 + 0.2 * noise(body))
+}
+
+fn mass(radius: f64) -> f64 {
+    4.0 / 3.0 * std::f64::consts::PI * 2500.0 * radius.powi(3)
+}
+
+/// Up to 1 % of the diameter, 10 % less in every other sweep: contacts load and unload.
+fn overlap(contact: usize, turn: usize) -> f64 {
+    5e-6 * (1.1 + noise(1000 + contact)) * (1.0 - 0.1 * turn as f64)
+}
+
+/// Some mm/s, forth and back.
+fn velocity(seed: usize, turn: usize, axis: usize) -> f64 {
+    5e-3 * noise(2000 + 3 * seed + axis) * (1.0 - 2.0 * turn as f64)
+}
+
+fn normal(contact: usize) -> [f64; 3] {
+    let (height, angle) = (noise(5000 + contact), TAU * noise(6000 + contact));
+    let radius = (1.0 - height * height).sqrt();
+    [radius * angle.cos(), radius * angle.sin(), height]
+}

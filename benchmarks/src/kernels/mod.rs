@@ -1,0 +1,107 @@
+//! Micro-benchmarks: the time of one contact, law by law.
+
+mod builds;
+mod cases;
+mod contacts;
+
+use std::time::Instant;
+
+use pulvis_contact::{Composition, NormalLaw, NormalLawVisitor};
+use pulvis_math::{Lanes, Real};
+
+use crate::failure::Failure;
+use builds::{Build, Sweep};
+use cases::cases;
+use contacts::{Contacts, Store};
+
+/// Passes of which the fastest counts: others may use the machine meanwhile.
+const PASSES: usize = 9;
+/// Sweeps of a pass, so that it takes some milliseconds.
+const SWEEPS: usize = 2000;
+
+/// Prints a table of all models whose name holds `only`.
+pub(crate) fn run(only: &str) -> Result<(), Failure> {
+    let builds: Vec<Build> = Build::ALL.into_iter().filter(|build| build.is_available()).collect();
+    println!(
+        "ns per contact{}; memory of 64 contacts in cache, no gathers and scatters",
+        if ticks().is_some() { " (ticks of the time stamp counter)" } else { "" }
+    );
+    print!("{:44}{:>8}", "model", "ledger");
+    for build in &builds {
+        print!("{:>20}", build.name());
+    }
+    println!();
+    for case in cases()?.into_iter().filter(|case| case.name.contains(only)) {
+        for ledger in [true, false] {
+            print!("{:44}{:>8}", case.name, if ledger { "on" } else { "off" });
+            for &build in &builds {
+                let composition = &case.model.composition;
+                let cost = case.model.normal.accept(Measured { composition, build, ledger });
+                let ticks = cost.ticks.map_or(String::new(), |ticks| format!(" ({ticks:6.1})"));
+                print!("{:>20}", format!("{:.2}{ticks}", cost.nanoseconds));
+            }
+            println!();
+        }
+    }
+    Ok(())
+}
+
+/// What a contact costs.
+#[derive(Clone, Copy, Debug)]
+struct Cost {
+    /// Time [ns].
+    nanoseconds: f64,
+    /// Ticks of the time stamp counter, which has a fixed frequency whatever that of the core.
+    ticks: Option<f64>,
+}
+
+struct Measured<'a> {
+    composition: &'a Composition,
+    build: Build,
+    ledger: bool,
+}
+
+impl NormalLawVisitor for Measured<'_> {
+    type Output = Cost;
+    fn visit<N: NormalLaw>(self, law: N) -> Cost {
+        if self.build == Build::Scalar { self.of::<f64, N>(&law) } else { self.of::<Lanes<8>, N>(&law) }
+    }
+}
+
+impl Measured<'_> {
+    fn of<R: Real, N: NormalLaw>(&self, law: &N) -> Cost {
+        let contacts = Contacts::<R>::new();
+        let mut store = Store::<R, N>::new(&contacts);
+        let sweep = |store: &mut Store<R, N>| {
+            let sweep =
+                Sweep { law, composition: self.composition, contacts: &contacts, ledger: self.ledger };
+            self.build.execute(sweep, store, SWEEPS);
+        };
+        sweep(&mut store);
+        let fastest = (0..PASSES).map(|_| timed(|| sweep(&mut store))).min_by(|a, b| a.0.total_cmp(&b.0));
+        std::hint::black_box(&store);
+        let (seconds, ticks) = fastest.unwrap_or_default();
+        let count = (SWEEPS * contacts.count()) as f64;
+        Cost { nanoseconds: 1e9 * seconds / count, ticks: ticks.map(|ticks| ticks / count) }
+    }
+}
+
+/// Time [s] and ticks that `action` takes.
+fn timed(action: impl FnOnce()) -> (f64, Option<f64>) {
+    let (begin, first) = (Instant::now(), ticks());
+    action();
+    let last = ticks();
+    let elapsed = first.zip(last).map(|(first, last)| last.wrapping_sub(first) as f64);
+    (begin.elapsed().as_secs_f64(), elapsed)
+}
+
+/// The time stamp counter, where the processor has one.
+fn ticks() -> Option<u64> {
+    #[cfg(target_arch = "x86_64")]
+    {
+        // SAFETY: reads a counter that every x86-64 processor has; it touches no memory.
+        Some(unsafe { std::arch::x86_64::_rdtsc() })
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    None
+}

@@ -1,0 +1,90 @@
+//! Timed steps, and the report.
+
+use std::time::{Duration, Instant};
+
+use cpu_time::ProcessTime;
+use pulvis_core::{Setup, Simulation};
+
+use crate::command::Run;
+use crate::failure::Failure;
+use crate::observed::{Observed, write_table};
+
+/// What the clock said.
+struct Times {
+    wall: Duration,
+    cpu: Duration,
+    /// Wall time of steps in which the candidates were listed anew.
+    renewing: Duration,
+    rebuilds: u64,
+}
+
+/// Sets the system up, does the steps and prints the report. As with the peers' loop time, setting up
+/// and the first forces are not counted.
+pub(crate) fn run(name: &str, setup: Setup, run: &Run) -> Result<(), Failure> {
+    let mut simulation = Simulation::new(setup)?;
+    if let Some(skin) = run.skin {
+        simulation.set_skin(skin)?;
+    }
+    for _ in 0..run.warm_up {
+        simulation.step()?;
+    }
+    let times = timed_steps(&mut simulation, run.steps)?;
+    print(name, &mut simulation, run.steps, &times);
+    match &run.write {
+        Some(path) => write_table(&simulation, path),
+        None => Ok(()),
+    }
+}
+
+fn timed_steps(simulation: &mut Simulation, steps: u64) -> Result<Times, Failure> {
+    let at_start = simulation.rebuilds();
+    let mut rebuilds = at_start;
+    let mut renewing = Duration::ZERO;
+    let (cpu, wall) = (ProcessTime::now(), Instant::now());
+    let mut begin = wall;
+    for _ in 0..steps {
+        simulation.step()?;
+        let end = Instant::now();
+        if simulation.rebuilds() != rebuilds {
+            rebuilds = simulation.rebuilds();
+            renewing += end - begin;
+        }
+        begin = end;
+    }
+    Ok(Times { wall: wall.elapsed(), cpu: cpu.elapsed(), renewing, rebuilds: rebuilds - at_start })
+}
+
+fn print(name: &str, simulation: &mut Simulation, steps: u64, times: &Times) {
+    let observed = Observed::of(simulation);
+    let count = simulation.particles().len();
+    let wall = times.wall.as_secs_f64();
+    let plain = (times.wall - times.renewing).as_secs_f64() / (steps - times.rebuilds).max(1) as f64;
+    let neighbours = times.renewing.as_secs_f64() - plain * times.rebuilds as f64;
+    let contacts = observed.pairs + observed.at_walls;
+    println!("workload {name}");
+    println!(
+        "contacts {contacts} (at walls {}) candidates {} rebuilds {} bytes per particle {:.0}",
+        observed.at_walls,
+        simulation.candidates(),
+        times.rebuilds,
+        simulation.memory_size() as f64 / count.max(1) as f64,
+    );
+    // The extra time of the steps with a new list: what neighbours cost beyond the usual step.
+    println!(
+        "neighbours {:.4} s ({:.1} %) other {:.4} s",
+        neighbours,
+        100.0 * neighbours / wall,
+        wall - neighbours
+    );
+    println!(
+        "kinetic energy {:.9e} J, of rotation {:.9e} J, coordination {:.6}, mean overlap {:.9e} m",
+        observed.kinetic, observed.rotational, observed.coordination, observed.mean_overlap
+    );
+    println!(
+        "{:.4} M particle-steps/s, {:.1} steps/s, {:.2} ns per contact-step",
+        1e-6 * (count as f64) * steps as f64 / wall,
+        steps as f64 / wall,
+        1e9 * wall / steps as f64 / contacts.max(1) as f64
+    );
+    println!("N {count} steps {steps} wall {wall:.6} cpu {:.6}", times.cpu.as_secs_f64());
+}
