@@ -59,9 +59,10 @@ impl<N: NormalLaw> Flight<'_, N> {
     pub(super) fn record(&mut self) {
         match &self.observation.sampling {
             Sampling::None => return,
-            // Round-off may pass a corner twice; one instant of it is enough.
+            // Round-off of the overlap, whose root is a time near a turning point, may pass a corner of
+            // the law for a moment; one instant of it is enough.
             Sampling::Every(_)
-                if self.time - self.recorded.0 < 1e-9 * self.longest_step
+                if self.time - self.recorded.0 < 1e-4 * self.longest_step
                     && self.phase == self.recorded.1 =>
             {
                 return;
