@@ -4,7 +4,7 @@ use super::outcome::Regime;
 use super::problem::Problem;
 use pulvis_contact::normal::NormalResponse;
 use pulvis_contact::theory::{self, LinearSpringDashpot};
-use pulvis_contact::{Normal, NormalLaw, Viscosity};
+use pulvis_contact::{NormalLaw, NormalLawVisitor, Pair, Viscosity};
 use pulvis_input::collision::{CollisionCase, luding_pair};
 
 /// The closed form of a collision.
@@ -62,10 +62,7 @@ pub fn closed_form(case: &CollisionCase) -> Option<ClosedForm> {
 
 /// The coefficient of all dashpots if it is a constant [kg/s].
 fn dashpot(problem: &Problem<'_>) -> Option<f64> {
-    let own = match problem.contact.normal {
-        Normal::Linear(law) => law.dashpot(&problem.pair),
-        Normal::Luding(law) => law.dashpot(&problem.pair),
-    };
+    let own = problem.contact.normal.accept(OwnDashpot(problem.pair));
     let viscosity = problem.contact.composition.viscosity;
     let largest = viscosity.largest_coefficient(&problem.pair);
     if largest == 0.0 {
@@ -76,5 +73,15 @@ fn dashpot(problem: &Problem<'_>) -> Option<f64> {
             Some(own + viscosity.coefficient(&problem.pair, 1.0, &NormalResponse::default()))
         }
         _ => None,
+    }
+}
+
+/// The dashpot that a normal law brings along [kg/s].
+struct OwnDashpot(Pair);
+
+impl NormalLawVisitor for OwnDashpot {
+    type Output = f64;
+    fn visit<N: NormalLaw>(self, law: N) -> f64 {
+        law.dashpot(&self.0)
     }
 }
