@@ -19,27 +19,27 @@ pub struct Background {
     pub rotational_drag: f64,
 }
 
+/// What the background takes from a particle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Drag {
+    /// Against the velocity [N].
+    pub(crate) force: Vector3,
+    /// Against the spin [N m].
+    pub(crate) torque: Vector3,
+    /// Power lost [W].
+    pub(crate) power: f64,
+}
+
 impl Background {
-    /// Adds the forces; answers with the power that the drag takes [W].
-    pub(crate) fn act(&self, particles: &mut Particles) -> f64 {
-        if self.gravity != Vector3::zero() {
-            for (force, &mass) in particles.force.iter_mut().zip(&particles.mass) {
-                *force += self.gravity * mass;
-            }
+    /// The drag on a particle of the given velocity [m/s], spin [rad/s] and radius [m].
+    #[inline(always)]
+    pub(crate) fn drag_on(&self, velocity: Vector3, spin: Vector3, radius: f64) -> Drag {
+        let turning = self.rotational_drag * radius * radius;
+        Drag {
+            force: velocity * self.drag,
+            torque: spin * turning,
+            power: self.drag * velocity.norm_squared() + turning * spin.norm_squared(),
         }
-        if self.drag == 0.0 && self.rotational_drag == 0.0 {
-            return 0.0;
-        }
-        let mut power = 0.0;
-        for row in 0..particles.len() {
-            let velocity = particles.velocity_predicted[row];
-            let spin = particles.spin_predicted[row];
-            let turning = self.rotational_drag * particles.radius[row] * particles.radius[row];
-            particles.force[row] -= velocity * self.drag;
-            particles.torque[row] -= spin * turning;
-            power += self.drag * velocity.norm_squared() + turning * spin.norm_squared();
-        }
-        power
     }
 
     /// Potential energy in the gravity field [J].

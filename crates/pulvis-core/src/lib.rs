@@ -8,10 +8,12 @@ pub mod arrangement;
 mod background;
 mod contacts;
 mod domain;
+mod integrator;
 mod ledger;
 mod neighbours;
 mod particles;
 mod simulation;
+mod team;
 mod time_step;
 pub mod walls;
 
@@ -21,4 +23,5 @@ pub use domain::Domain;
 pub use ledger::Ledger;
 pub use particles::{MaterialIndex, Particle, ParticleId, Particles};
 pub use simulation::{Setup, SetupError, Simulation, StepError};
+pub use team::Team;
 pub use time_step::{ShortestContact, shortest_contact};

@@ -38,7 +38,6 @@ fn the_ledger_closes_at_second_order_with_all_springs_and_a_dashpot_along_the_no
 }
 
 #[test]
-#[ignore = "of first order until slip books what springs do in the part of a step in which a contact is open"]
 fn the_ledger_of_the_whole_model_closes_at_second_order() {
     let errors = closing_errors(&box_of_powder(viscous_luding()), 60.0);
     assert!(errors[0] < 1e-4, "{errors:?}");

@@ -37,12 +37,6 @@ pub(crate) struct WallMotionNow {
     pub(crate) velocity: Vector3,
 }
 
-/// Where contacts add their forces and torques.
-pub(crate) struct Totals<'a> {
-    pub(crate) force: &'a mut [Vector3],
-    pub(crate) torque: &'a mut [Vector3],
-}
-
 /// What a sweep over a group's contacts adds up to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ContactTotals {
@@ -74,36 +68,48 @@ fn gather3(column: &[Vector3], rows: &[u32; WIDTH]) -> Vector3<Lane> {
     Vector3::new(Lane::from(x), Lane::from(y), Lane::from(z))
 }
 
-struct PairSweep<'a, 'b> {
-    group: &'a mut ContactGroup,
-    moving: Moving<'a>,
-    images: Images,
-    time_step: f64,
-    totals: &'a mut Totals<'b>,
+/// How far bodies have moved since the candidates were listed, and over which step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Advance {
+    /// By how much a gap can have closed at the most [m].
+    pub(crate) closed: f64,
+    /// The step that led to the present positions [s].
+    pub(crate) time_step: f64,
 }
 
-impl NormalLawVisitor for PairSweep<'_, '_> {
-    type Output = ContactTotals;
-    fn visit<N: NormalLaw>(self, law: N) -> ContactTotals {
-        let Self { group, moving, images, time_step, totals } = self;
-        if group.model.composition.has_friction() {
-            sweep_pairs::<N, true>(law, group, moving, images, time_step, totals)
-        } else {
-            sweep_pairs::<N, false>(law, group, moving, images, time_step, totals)
-        }
-    }
-}
-
-/// Forces between the particles of a group's pairs.
-pub(crate) fn pair_forces(
+/// Computes the forces of a group's contacts, particle pairs or contacts with a wall; they are left in
+/// the group, with what they add up to.
+pub(crate) fn sweep(
     group: &mut ContactGroup,
     moving: Moving<'_>,
     images: Images,
-    time_step: f64,
-    totals: &mut Totals<'_>,
-) -> ContactTotals {
+    walls: &[WallMotionNow],
+    advance: Advance,
+) {
     let normal = group.model.normal;
-    normal.accept(PairSweep { group, moving, images, time_step, totals })
+    match group.partner {
+        Partner::Particle => normal.accept(PairSweep { group, moving, images, advance }),
+        Partner::Wall(place) => normal.accept(WallSweep { group, moving, wall: walls[place], advance }),
+    }
+}
+
+struct PairSweep<'a> {
+    group: &'a mut ContactGroup,
+    moving: Moving<'a>,
+    images: Images,
+    advance: Advance,
+}
+
+impl NormalLawVisitor for PairSweep<'_> {
+    type Output = ();
+    fn visit<N: NormalLaw>(self, law: N) {
+        let Self { group, moving, images, advance } = self;
+        if group.model.composition.has_friction() {
+            sweep_pairs::<N, true>(law, group, moving, images, advance);
+        } else {
+            sweep_pairs::<N, false>(law, group, moving, images, advance);
+        }
+    }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw", "x86_64+avx2"), dispatcher = "direct")]
@@ -112,43 +118,38 @@ fn sweep_pairs<N: NormalLaw, const FRICTION: bool>(
     group: &mut ContactGroup,
     moving: Moving<'_>,
     images: Images,
-    time_step: f64,
-    totals: &mut Totals<'_>,
-) -> ContactTotals {
+    advance: Advance,
+) {
     let composition = group.model.composition;
-    let layout = group.layout;
-    let columns = layout.columns();
     let reach = Lane::splat(-composition.noncontact.reach());
     let mut energies = ContactEnergies::<Lane>::default();
     for block in 0..group.first.len() {
+        if group.gap[block] > advance.closed && !group.live[block] {
+            continue;
+        }
         let (first, second) = (group.first[block], group.second[block]);
-        let filled = group.filled(block);
         let separation = gather3(moving.position, &first) - gather3(moving.position, &second);
         let separation = images.nearest(separation);
         let radius_i = gather(moving.radius, &first);
         let radius_j = gather(moving.radius, &second);
         let distance = separation.norm();
-        let overlap = radius_i + radius_j - distance;
         // Idle lanes are out of any reach.
-        let overlap = Lane::select(filled_lanes(filled), overlap, reach + reach - radius_i);
+        let idle = reach + reach - radius_i;
+        let overlap = Lane::select(filled_lanes(group.filled(block)), radius_i + radius_j - distance, idle);
         let acts = overlap.gt(reach).any();
         if !acts && !group.live[block] {
             continue;
         }
         group.live[block] = acts;
         let inverse_distance = Lane::one() / distance;
-        let (mid_i, mid_j) = (gather3(moving.velocity_mid, &first), gather3(moving.velocity_mid, &second));
-        let (now_i, now_j) = (gather3(moving.velocity, &first), gather3(moving.velocity, &second));
-        let spins = if FRICTION {
-            [
-                gather3(moving.spin, &first),
-                gather3(moving.spin, &second),
-                gather3(moving.spin_mid, &first),
-                gather3(moving.spin_mid, &second),
-            ]
-        } else {
-            [Vector3::default(); 4]
-        };
+        let (mut spin_i, mut spin_j) = <(Vector3<Lane>, Vector3<Lane>)>::default();
+        let (mut spin_i_mid, mut spin_j_mid) = (spin_i, spin_j);
+        if FRICTION {
+            (spin_i, spin_j) = gather_both(moving.spin, &first, &second);
+            (spin_i_mid, spin_j_mid) = gather_both(moving.spin_mid, &first, &second);
+        }
+        let (now_i, now_j) = gather_both(moving.velocity, &first, &second);
+        let (mid_i, mid_j) = gather_both(moving.velocity_mid, &first, &second);
         let motion = PairMotion {
             normal: separation * inverse_distance,
             overlap,
@@ -157,61 +158,46 @@ fn sweep_pairs<N: NormalLaw, const FRICTION: bool>(
             radius_j,
             velocity: now_i - now_j,
             velocity_mid: mid_i - mid_j,
-            spin_i: spins[0],
-            spin_j: spins[1],
-            spin_i_mid: spins[2],
-            spin_j_mid: spins[3],
+            spin_i,
+            spin_j,
+            spin_i_mid,
+            spin_j_mid,
         };
-        let pair =
-            Pair::spheres(gather(moving.mass, &first), gather(moving.mass, &second), radius_i, radius_j);
-        let memory = &mut group.memory[block * columns..(block + 1) * columns];
-        let answer = respond::<N, FRICTION>(&law, &composition, &layout, &pair, &motion, time_step, memory);
+        let (mass_i, mass_j) = (gather(moving.mass, &first), gather(moving.mass, &second));
+        let pair = Pair::spheres(mass_i, mass_j, radius_i, radius_j);
+        let answer = respond_block::<N, FRICTION>(&law, group, block, &pair, &motion, advance.time_step);
         energies += answer.energies;
-        for lane in 0..filled {
-            let (i, j) = (first[lane] as usize, second[lane] as usize);
-            let force = answer.force.lane(lane);
-            totals.force[i] += force;
-            totals.force[j] -= force;
-            if FRICTION {
-                totals.torque[i] += answer.torque_i.lane(lane);
-                totals.torque[j] += answer.torque_j.lane(lane);
-            }
-        }
     }
-    ContactTotals { energies: energies.sum_lanes(), force: Vector3::zero() }
+    group.totals = ContactTotals { energies: energies.sum_lanes(), force: Vector3::zero() };
 }
 
-struct WallSweep<'a, 'b> {
+/// One vector of each of eight first and eight second rows.
+#[inline(always)]
+fn gather_both(
+    column: &[Vector3],
+    first: &[u32; WIDTH],
+    second: &[u32; WIDTH],
+) -> (Vector3<Lane>, Vector3<Lane>) {
+    (gather3(column, first), gather3(column, second))
+}
+
+struct WallSweep<'a> {
     group: &'a mut ContactGroup,
     moving: Moving<'a>,
     wall: WallMotionNow,
-    time_step: f64,
-    totals: &'a mut Totals<'b>,
+    advance: Advance,
 }
 
-impl NormalLawVisitor for WallSweep<'_, '_> {
-    type Output = ContactTotals;
-    fn visit<N: NormalLaw>(self, law: N) -> ContactTotals {
-        let Self { group, moving, wall, time_step, totals } = self;
+impl NormalLawVisitor for WallSweep<'_> {
+    type Output = ();
+    fn visit<N: NormalLaw>(self, law: N) {
+        let Self { group, moving, wall, advance } = self;
         if group.model.composition.has_friction() {
-            sweep_wall::<N, true>(law, group, moving, wall, time_step, totals)
+            sweep_wall::<N, true>(law, group, moving, wall, advance);
         } else {
-            sweep_wall::<N, false>(law, group, moving, wall, time_step, totals)
+            sweep_wall::<N, false>(law, group, moving, wall, advance);
         }
     }
-}
-
-/// Forces of a wall on the particles of a group; the sum is what the wall exerts on them.
-pub(crate) fn wall_forces(
-    group: &mut ContactGroup,
-    moving: Moving<'_>,
-    wall: WallMotionNow,
-    time_step: f64,
-    totals: &mut Totals<'_>,
-) -> ContactTotals {
-    debug_assert!(group.partner != Partner::Particle);
-    let normal = group.model.normal;
-    normal.accept(WallSweep { group, moving, wall, time_step, totals })
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw", "x86_64+avx2"), dispatcher = "direct")]
@@ -220,12 +206,9 @@ fn sweep_wall<N: NormalLaw, const FRICTION: bool>(
     group: &mut ContactGroup,
     moving: Moving<'_>,
     wall: WallMotionNow,
-    time_step: f64,
-    totals: &mut Totals<'_>,
-) -> ContactTotals {
+    advance: Advance,
+) {
     let composition = group.model.composition;
-    let layout = group.layout;
-    let columns = layout.columns();
     let reach = Lane::splat(-composition.noncontact.reach());
     let normal = Vector3::<Lane>::splat(wall.normal);
     let wall_now = Vector3::<Lane>::splat(wall.velocity);
@@ -233,6 +216,9 @@ fn sweep_wall<N: NormalLaw, const FRICTION: bool>(
     let mut energies = ContactEnergies::<Lane>::default();
     let mut total = Vector3::zero();
     for block in 0..group.first.len() {
+        if group.gap[block] > advance.closed && !group.live[block] {
+            continue;
+        }
         let rows = group.first[block];
         let filled = group.filled(block);
         let radius = gather(moving.radius, &rows);
@@ -257,20 +243,44 @@ fn sweep_wall<N: NormalLaw, const FRICTION: bool>(
             spin_j_mid: Vector3::default(),
         };
         let pair = Pair::wall(gather(moving.mass, &rows), radius);
-        let memory = &mut group.memory[block * columns..(block + 1) * columns];
-        let answer = respond::<N, FRICTION>(&law, &composition, &layout, &pair, &motion, time_step, memory);
+        let answer = respond_block::<N, FRICTION>(&law, group, block, &pair, &motion, advance.time_step);
         energies += answer.energies;
-        for (lane, &row) in rows.iter().enumerate().take(filled) {
-            let row = row as usize;
-            let force = answer.force.lane(lane);
-            totals.force[row] += force;
-            total += force;
-            if FRICTION {
-                totals.torque[row] += answer.torque_i.lane(lane);
-            }
+        for lane in 0..filled {
+            total += answer.force.lane(lane);
         }
     }
-    ContactTotals { energies: energies.sum_lanes(), force: total }
+    group.totals = ContactTotals { energies: energies.sum_lanes(), force: total };
+}
+
+/// The response of a block; its memory and its forces are written back.
+#[inline(always)]
+fn respond_block<N: NormalLaw, const FRICTION: bool>(
+    law: &N,
+    group: &mut ContactGroup,
+    block: usize,
+    pair: &Pair<Lane>,
+    motion: &PairMotion<Lane>,
+    time_step: f64,
+) -> ContactResponse<Lane> {
+    let columns = group.layout.columns();
+    let memory = &mut group.memory[block * columns..(block + 1) * columns];
+    let composition = &group.model.composition;
+    let answer = respond::<N, FRICTION>(law, composition, &group.layout, pair, motion, time_step, memory);
+    let components = if FRICTION { 9 } else { 3 };
+    let forces = &mut group.forces[block * components..(block + 1) * components];
+    store3(&mut forces[..3], answer.force);
+    if FRICTION {
+        store3(&mut forces[3..6], answer.torque_i);
+        store3(&mut forces[6..9], answer.torque_j);
+    }
+    answer
+}
+
+#[inline(always)]
+fn store3(slots: &mut [Lane], vector: Vector3<Lane>) {
+    slots[0] = vector.x;
+    slots[1] = vector.y;
+    slots[2] = vector.z;
 }
 
 /// One block: memory in, response, memory out.

@@ -1,15 +1,18 @@
 //! The contact table: candidate pairs in blocks of eight, and what each contact remembers.
 
+mod adjacency;
 mod block;
 mod interactions;
 mod kernel;
 mod layout;
 mod rebuild;
+mod table;
 mod view;
 
-pub(crate) use block::{ContactGroup, Partner};
+pub(crate) use block::Partner;
 pub use interactions::Interactions;
-pub(crate) use kernel::{Moving, Totals, WallMotionNow, pair_forces, wall_forces};
+pub(crate) use kernel::{Advance, Moving, WallMotionNow};
 pub(crate) use rebuild::MemoryStore;
+pub(crate) use table::{ContactTable, Surroundings};
 pub use view::{ContactPartner, ContactView};
 pub(crate) use view::{Views, view_contacts};

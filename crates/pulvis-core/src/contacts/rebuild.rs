@@ -54,7 +54,7 @@ impl MemoryStore {
     }
 
     /// Adds the candidate pair of two rows to `group`, the lower id first, with its memory.
-    pub(crate) fn push_pair(&self, group: &mut ContactGroup, rows: (u32, u32), ids: &[ParticleId]) {
+    pub(crate) fn push_pair(&self, group: &mut ContactGroup, rows: (u32, u32), gap: f64, ids: &[ParticleId]) {
         let (one, other) = (ids[rows.0 as usize], ids[rows.1 as usize]);
         let (rows, key) = if one < other {
             (rows, (NO_WALL, one, other))
@@ -62,12 +62,19 @@ impl MemoryStore {
             ((rows.1, rows.0), (NO_WALL, other, one))
         };
         let record = self.find(key, group);
-        group.push(rows.0, rows.1, record.as_deref());
+        group.push(rows.0, rows.1, gap, record.as_deref());
     }
 
     /// Adds the particle of a row as a candidate of the group's wall, with its memory.
-    pub(crate) fn push_wall(&self, group: &mut ContactGroup, wall: usize, row: u32, ids: &[ParticleId]) {
+    pub(crate) fn push_wall(
+        &self,
+        group: &mut ContactGroup,
+        wall: usize,
+        row: u32,
+        gap: f64,
+        ids: &[ParticleId],
+    ) {
         let record = self.find((wall as u32, ids[row as usize], 0), group);
-        group.push(row, row, record.as_deref());
+        group.push(row, row, gap, record.as_deref());
     }
 }

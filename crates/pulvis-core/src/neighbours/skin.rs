@@ -31,27 +31,28 @@ impl Skin {
         self.walls.extend(wall_offsets);
     }
 
-    /// Whether anything has moved half a skin since the list was made: two bodies can then have
-    /// come closer by a whole skin.
-    pub(crate) fn outdated(
-        &self,
-        positions: &[Vector3],
-        wall_offsets: impl Iterator<Item = f64>,
-    ) -> Outdated {
-        let limit = 0.25 * self.thickness * self.thickness;
-        let moved = positions.iter().zip(&self.positions).any(|(now, before)| {
-            let squared = (*now - *before).norm_squared();
-            squared > limit || squared.is_nan()
-        });
-        if moved && let Some(lost) = positions.iter().position(|position| !position.is_finite()) {
-            return Outdated::Lost(lost);
+    /// Where the particles were.
+    pub(crate) fn listed(&self) -> &[Vector3] {
+        &self.positions
+    }
+
+    /// By how much a gap can have closed since the list was made [m], if no particle has moved farther
+    /// than the root of `farthest` [m²].
+    pub(crate) fn closed(&self, farthest: f64, wall_offsets: impl Iterator<Item = f64>) -> f64 {
+        let moved = farthest.sqrt();
+        let walls = wall_offsets.zip(&self.walls).map(|(now, before)| (now - before).abs());
+        moved + walls.fold(moved, f64::max)
+    }
+
+    /// Whether the list still holds: a gap that has closed by more than a skin may be that of two
+    /// bodies which are not on it.
+    pub(crate) fn outdated(&self, closed: f64, positions: &[Vector3]) -> Outdated {
+        if closed.is_finite() && closed <= self.thickness {
+            return Outdated::No;
         }
-        let walls_moved =
-            wall_offsets.zip(&self.walls).any(|(now, before)| 2.0 * (now - before).abs() > self.thickness);
-        if moved || walls_moved || positions.len() != self.positions.len() {
-            Outdated::Yes
-        } else {
-            Outdated::No
+        match positions.iter().position(|position| !position.is_finite()) {
+            Some(lost) => Outdated::Lost(lost),
+            None => Outdated::Yes,
         }
     }
 }
@@ -61,17 +62,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_list_is_out_of_date_when_something_has_moved_half_a_skin() {
+    fn a_list_is_out_of_date_when_two_bodies_can_have_come_closer_by_a_skin() {
         let mut skin = Skin { thickness: 0.2, ..Skin::default() };
         let start = vec![Vector3::zero(); 2];
         skin.renew(&start, [0.0].into_iter());
-        let mut moved = start;
-        moved[1].x = 0.09;
-        assert_eq!(skin.outdated(&moved, [0.09].into_iter()), Outdated::No);
-        assert_eq!(skin.outdated(&moved, [0.11].into_iter()), Outdated::Yes);
-        moved[1].x = 0.11;
-        assert_eq!(skin.outdated(&moved, [0.0].into_iter()), Outdated::Yes);
-        moved[0].y = f64::NAN;
-        assert_eq!(skin.outdated(&moved, [0.0].into_iter()), Outdated::Lost(0));
+        let outdated = |farthest: f64, wall: f64, positions: &[Vector3]| {
+            skin.outdated(skin.closed(farthest * farthest, [wall].into_iter()), positions)
+        };
+        assert_eq!(outdated(0.09, 0.09, &start), Outdated::No);
+        assert_eq!(outdated(0.09, 0.12, &start), Outdated::Yes);
+        assert_eq!(outdated(0.11, 0.0, &start), Outdated::Yes);
+        let lost = [Vector3::new(0.0, f64::NAN, 0.0), Vector3::zero()];
+        assert_eq!(outdated(f64::INFINITY, 0.0, &lost), Outdated::Lost(0));
     }
 }

@@ -1,0 +1,72 @@
+//! Why a simulation cannot be set up, or a step failed.
+
+use thiserror::Error;
+
+use crate::particles::ParticleId;
+
+/// Why a simulation cannot be set up.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum SetupError {
+    /// Two bodies can meet for which there is no contact model.
+    #[error("no contact model for materials {one} and {other}, which can meet")]
+    NoModel {
+        /// Place of a material.
+        one: u16,
+        /// Place of the other.
+        other: u16,
+    },
+    /// A period is too short for the rule of the nearest image.
+    #[error(
+        "the period {period} m along axis {axis} is shorter than {least} m, twice the search radius; a particle would meet two images of another one"
+    )]
+    ShortPeriod {
+        /// 0 is x, 1 is y, 2 is z.
+        axis: usize,
+        /// The period [m].
+        period: f64,
+        /// The shortest one possible [m].
+        least: f64,
+    },
+    /// A wall stands across a periodic direction: a particle that leaves through the boundary would
+    /// come back on the wall's other side.
+    #[error(
+        "wall {wall} stands across axis {axis}, which is periodic; its normal must have no part along a periodic axis"
+    )]
+    WallAcrossPeriod {
+        /// Place of the wall in the list of walls.
+        wall: usize,
+        /// 0 is x, 1 is y, 2 is z.
+        axis: usize,
+    },
+    /// A wall follows a pressure, but its area is unknown.
+    #[error("wall {wall} follows a pressure, but the area of its face is unknown")]
+    NoArea {
+        /// Place of the wall in the list of walls.
+        wall: usize,
+    },
+    /// The threads cannot be started.
+    #[error("cannot start {0} threads; ask for fewer")]
+    Threads(usize),
+    /// The time step is no positive number.
+    #[error("the time step is {0} s, expected a number greater than zero")]
+    TimeStep(f64),
+}
+
+/// Why a step failed.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum StepError {
+    /// A position is no number any more.
+    #[error(
+        "particle {id} was lost in step {step} (t = {time} s): its position is not a number; the time step is too long for the forces that act"
+    )]
+    Lost {
+        /// Which particle.
+        id: ParticleId,
+        /// In which step.
+        step: u64,
+        /// When [s].
+        time: f64,
+    },
+}

@@ -1,0 +1,71 @@
+//! What can be seen of a simulation: the ledger and the contacts.
+
+use super::Simulation;
+use crate::contacts::{ContactView, Moving, Partner, Views, view_contacts};
+use crate::ledger::Ledger;
+
+impl Simulation {
+    /// Draws up the energy ledger.
+    pub fn ledger(&mut self) -> Ledger {
+        let particles = &self.particles;
+        let (mut translation, mut rotation, mut discretisation) = (0.0, 0.0, 0.0);
+        for row in 0..particles.len() {
+            let (mass, inertia) = (particles.mass[row], particles.inertia(row));
+            translation += 0.5 * mass * particles.velocity[row].norm_squared();
+            rotation += 0.5 * inertia * particles.spin[row].norm_squared();
+            discretisation +=
+                particles.force[row].norm_squared() / mass + particles.torque[row].norm_squared() / inertia;
+        }
+        let held = self.running.contacts;
+        let mut ledger = Ledger {
+            kinetic_translation: translation,
+            kinetic_rotation: rotation,
+            kinetic_discretisation: -0.125 * self.time_step * self.time_step * discretisation,
+            elastic_normal: held.elastic_normal,
+            elastic_sliding: held.elastic_sliding,
+            elastic_rolling: held.elastic_rolling,
+            elastic_torsion: held.elastic_torsion,
+            adhesive: held.adhesive_potential,
+            gravity: self.background.potential(particles) + self.running.gravity_wrapped,
+            dissipated_plastic: held.dissipated_plastic,
+            dissipated_adhesive: held.dissipated_adhesive,
+            dissipated_viscous: self.running.viscous,
+            dissipated_sliding: held.dissipated_sliding,
+            dissipated_rolling: held.dissipated_rolling,
+            dissipated_torsion: held.dissipated_torsion,
+            dissipated_background: self.running.background,
+            work_walls: self.wall_states.iter().map(|state| state.work_prescribed).sum(),
+            work_servo: self.wall_states.iter().map(|state| state.work_servo).sum(),
+            switched: self.running.switched,
+            initial: self.running.initial,
+            scale: 0.0,
+        };
+        // Adhesive and gravity potentials have arbitrary zeros, so only energy that moves counts.
+        let turnover = ledger.kinetic() + ledger.elastic() + ledger.dissipated();
+        self.running.scale = self.running.scale.max(turnover);
+        ledger.scale = self.running.scale;
+        ledger
+    }
+
+    /// Hands every contact that acts to `see`, pairs first, then walls.
+    pub fn for_each_contact(&self, see: &mut dyn FnMut(&ContactView)) {
+        let particles = &self.particles;
+        let moving = Moving {
+            radius: &particles.radius,
+            mass: &particles.mass,
+            position: &particles.position,
+            velocity_mid: &particles.velocity,
+            velocity: &particles.velocity,
+            spin_mid: &particles.spin,
+            spin: &particles.spin,
+        };
+        for group in self.contacts.groups() {
+            let wall = match group.partner {
+                Partner::Particle => None,
+                Partner::Wall(place) => Some(self.wall_states[place].motion_at_rest(&self.walls[place])),
+            };
+            let (ids, images) = (&particles.id, self.domain.images());
+            view_contacts(Views { group, moving, ids, images, wall }, see);
+        }
+    }
+}

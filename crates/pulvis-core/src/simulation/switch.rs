@@ -1,0 +1,95 @@
+//! What can be changed while a simulation runs.
+
+use super::{SetupError, Simulation};
+use crate::background::Background;
+use crate::contacts::Interactions;
+use crate::team::Team;
+use crate::walls::WallMotion;
+
+/// Switching between stages. Every switch keeps the ledger: what the system holds more or less
+/// afterwards is booked as switched.
+impl Simulation {
+    /// Sets other contact models; contacts keep what both the old and the new law remember.
+    pub fn set_interactions(&mut self, interactions: Interactions) -> Result<(), SetupError> {
+        let before = std::mem::replace(&mut self.interactions, interactions);
+        if let Err(error) = self.check_models().and_then(|()| self.check_periods()) {
+            self.interactions = before;
+            return Err(error);
+        }
+        self.switch(|simulation| simulation.renew_candidates());
+        Ok(())
+    }
+
+    /// Sets the number of threads that do the work; the results are the same for any number.
+    ///
+    /// # Errors
+    /// The system cannot start that many threads.
+    pub fn set_threads(&mut self, threads: usize) -> Result<(), SetupError> {
+        self.team = Team::of(threads).map_err(|_| SetupError::Threads(threads))?;
+        Ok(())
+    }
+
+    /// Sets another gravity and drag.
+    pub fn set_background(&mut self, background: Background) {
+        self.switch(|simulation| {
+            simulation.background = background;
+            simulation.running.gravity_wrapped = 0.0;
+        });
+    }
+
+    /// Sets another time step [s].
+    pub fn set_time_step(&mut self, time_step: f64) -> Result<(), SetupError> {
+        if !(time_step > 0.0 && time_step.is_finite()) {
+            return Err(SetupError::TimeStep(time_step));
+        }
+        self.switch(|simulation| simulation.time_step = time_step);
+        Ok(())
+    }
+
+    /// Lets a wall move in another way from now on.
+    pub fn set_wall_motion(&mut self, place: usize, motion: WallMotion) {
+        // Dashpots see the wall's new velocity at once.
+        self.switch(|simulation| {
+            simulation.walls[place].motion = motion;
+            simulation.wall_states[place].start(&motion);
+            simulation.wall_starts[place] = simulation.time;
+        });
+    }
+
+    /// Takes a wall away, or puts it back where it stood, its motion beginning anew. A wall that is
+    /// away does not move.
+    pub fn set_wall_present(&mut self, place: usize, present: bool) {
+        self.switch(|simulation| {
+            if present && !simulation.walls[place].present {
+                simulation.wall_starts[place] = simulation.time;
+                simulation.wall_states[place].start(&simulation.walls[place].motion);
+            } else if !present {
+                simulation.wall_states[place].stop();
+            }
+            simulation.walls[place].present = present;
+            simulation.renew_candidates();
+        });
+    }
+
+    /// Sets how far beyond their reach candidates are listed [m]; at the start a fifth of the mean
+    /// radius. Thicker lists are renewed less often but hold more candidates that do not touch. A
+    /// skin must be thicker than what any particle moves in a step.
+    pub fn set_skin(&mut self, thickness: f64) -> Result<(), SetupError> {
+        // What is no number counts as no skin.
+        let before = std::mem::replace(&mut self.skin.thickness, thickness.max(0.0));
+        if let Err(error) = self.check_periods() {
+            self.skin.thickness = before;
+            return Err(error);
+        }
+        self.switch(|simulation| simulation.renew_candidates());
+        Ok(())
+    }
+
+    fn switch(&mut self, change: impl FnOnce(&mut Self)) {
+        let before = self.ledger().closing_error();
+        change(self);
+        self.evaluate_at_rest();
+        let after = self.ledger().closing_error();
+        self.running.switched += after - before;
+    }
+}
