@@ -28,6 +28,9 @@ pub struct Arguments {
     /// Write over the run that is in the output folder
     #[arg(long)]
     force: bool,
+    /// Number of threads; results do not depend on it [default: all processors that have enough to do]
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
     /// No progress line
     #[arg(short, long)]
     quiet: bool,
@@ -43,6 +46,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let options = RunOptions {
         folder: arguments.output.clone(),
         force: arguments.force,
+        threads: arguments.threads.map(usize::from),
         version: env!("CARGO_PKG_VERSION").to_owned(),
     };
     let mut line = ProgressLine::new(arguments.quiet);

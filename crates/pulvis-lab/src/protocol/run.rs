@@ -24,6 +24,9 @@ pub struct RunOptions {
     pub folder: Option<PathBuf>,
     /// Whether to write over a run that is in the folder.
     pub force: bool,
+    /// Number of threads; as many as there are processors and work for them where `None`. Results do
+    /// not depend on it.
+    pub threads: Option<usize>,
     /// Version of the program, for the record.
     pub version: String,
 }
@@ -100,7 +103,7 @@ pub fn run(
     scenario: &Scenario,
     options: &RunOptions,
     stop: &AtomicBool,
-    watch: &mut dyn FnMut(&Progress),
+    watch: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<RunSummary, RunError> {
     let prepared = prepare(scenario)?;
     let folder = options.folder.clone().unwrap_or_else(|| scenario.output.folder.clone());
@@ -109,16 +112,22 @@ pub fn run(
     let record = folder.join("run.toml");
     std::fs::write(&record, resolved).map_err(|source| PrepareError::Folder { folder: record, source })?;
     let mut run = Run::begin(scenario, prepared, &folder)?;
-    let mut stages = Vec::new();
-    for number in 0..scenario.stages.len() {
-        let result = run.stage(number, stop, watch)?;
-        let ending = result.ending;
-        stages.push(result);
-        if ending == Ending::Interrupted {
-            break;
-        }
-    }
+    let threads = options.threads.unwrap_or_else(|| sensible_threads(run.simulation.particles().len()));
+    run.simulation
+        .set_threads(threads)
+        .map_err(|source| RunError::Switch { stage: scenario.stages[0].name.clone(), source })?;
+    let team = run.simulation.team().clone();
+    let stages = team.run(|| run.stages(stop, watch))?;
     run.finish(stages, folder.clone())
+}
+
+/// Particles for which a further thread pays: with fewer, threads wait for each other longer than
+/// they work.
+const PARTICLES_PER_THREAD: usize = 500;
+
+fn sensible_threads(particles: usize) -> usize {
+    let processors = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    processors.min(particles / PARTICLES_PER_THREAD).max(1)
 }
 
 /// A run under way.
@@ -189,12 +198,28 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
+    /// Runs all stages, or those before the user stops it.
+    fn stages(
+        &mut self,
+        stop: &AtomicBool,
+        watch: &mut (dyn FnMut(&Progress) + Send),
+    ) -> Result<Vec<StageResult>, RunError> {
+        let mut results: Vec<StageResult> = Vec::new();
+        for number in 0..self.scenario.stages.len() {
+            results.push(self.stage(number, stop, watch)?);
+            if results.last().is_some_and(|result| result.ending == Ending::Interrupted) {
+                break;
+            }
+        }
+        Ok(results)
+    }
+
     /// Runs one stage to its end.
     fn stage(
         &mut self,
         number: usize,
         stop: &AtomicBool,
-        watch: &mut dyn FnMut(&Progress),
+        watch: &mut (dyn FnMut(&Progress) + Send),
     ) -> Result<StageResult, RunError> {
         let scenario = self.scenario;
         let stage = &scenario.stages[number];
