@@ -24,6 +24,7 @@ pub(crate) struct Resistance<'a, R: Real> {
     normal_mid: Vector3<R>,
     sideways_mid: Vector3<R>,
     elapsed: R,
+    missed: R,
 }
 
 impl<'a, R: Real> Resistance<'a, R> {
@@ -57,6 +58,7 @@ impl<'a, R: Real> Resistance<'a, R> {
             normal_mid: motion.normal - sideways * half_turn,
             sideways_mid: sideways * (R::one() - half_turn * closing),
             elapsed,
+            missed: dt - elapsed,
         }
     }
 
@@ -74,8 +76,8 @@ impl<'a, R: Real> Resistance<'a, R> {
         let spins = motion.spin_i * arm_i + motion.spin_j * arm_j;
         let spins_mid = motion.spin_i_mid * mid_i + motion.spin_j_mid * mid_j;
         let velocity = motion.velocity.tangential_to(normal) + normal.cross(spins);
-        let step = (self.sideways_mid + self.normal_mid.cross(spins_mid)) * self.elapsed;
-        let answer = self.stretch(slider, velocity, step, spring);
+        let velocity_mid = self.sideways_mid + self.normal_mid.cross(spins_mid);
+        let answer = self.stretch(slider, velocity, velocity_mid, spring);
         let moment = normal.cross(answer.force);
         response.force += answer.force;
         response.torque_i -= moment * arm_i;
@@ -98,8 +100,8 @@ impl<'a, R: Real> Resistance<'a, R> {
         let (lever, lever_mid) = (self.lever(self.overlap), self.lever(self.overlap_mid));
         let velocity = normal.cross(motion.spin_i - motion.spin_j) * -lever;
         let spin_mid = motion.spin_i_mid - motion.spin_j_mid;
-        let step = self.normal_mid.cross(spin_mid) * -(lever_mid * self.elapsed);
-        let answer = self.stretch(slider, velocity, step, spring);
+        let velocity_mid = self.normal_mid.cross(spin_mid) * -lever_mid;
+        let answer = self.stretch(slider, velocity, velocity_mid, spring);
         let energies = &mut response.energies;
         energies.elastic_rolling = answer.stored_energy;
         energies.dissipated_rolling = answer.dissipated_slip;
@@ -113,15 +115,18 @@ impl<'a, R: Real> Resistance<'a, R> {
         let (lever, lever_mid) = (self.lever(self.overlap), self.lever(self.overlap_mid));
         let velocity = normal.dot(motion.spin_i - motion.spin_j) * lever;
         let spin_mid = motion.spin_i_mid - motion.spin_j_mid;
-        let step = self.normal_mid.dot(spin_mid) * lever_mid * self.elapsed;
-        let answer = slider.respond_along(
+        let velocity_mid = self.normal_mid.dot(spin_mid) * lever_mid;
+        let before = *spring;
+        let mut answer = slider.respond_along(
             &SpringMotion {
                 velocity: velocity.keep_where(self.touching),
-                displacement: step.keep_where(self.touching),
+                displacement: (velocity_mid * self.elapsed).keep_where(self.touching),
                 friction_reference: self.friction_reference,
             },
             spring,
         );
+        let half = R::splat(0.5 * slider.stiffness);
+        answer.dissipated_slip += half * (before + *spring) * (velocity_mid * self.missed);
         let energies: &mut ContactEnergies<R> = &mut response.energies;
         energies.elastic_torsion = answer.stored_energy;
         energies.dissipated_torsion = answer.dissipated_slip;
@@ -130,12 +135,17 @@ impl<'a, R: Real> Resistance<'a, R> {
 
     /// Carries a spring of the tangent plane along and advances it. What the spring loses on the
     /// way by convention (`project`, `rate`) is booked as slip; rescaled springs lose nothing.
+    ///
+    /// So is the work of the spring's force in the part of the step in which the contact was open: in
+    /// both half kicks the force works all the time. It is of second order without a dashpot. But a
+    /// sliding contact's dashpot is held back by its spring (see [`SpringSlider`]), and what the one is
+    /// said to lose at touch and at parting, the other must be said to give.
     #[inline(always)]
     fn stretch(
         &self,
         slider: &SpringSlider,
         velocity: Vector3<R>,
-        step: Vector3<R>,
+        velocity_mid: Vector3<R>,
         spring: &mut Vector3<R>,
     ) -> FrictionResponse<Vector3<R>, R> {
         let (motion, normal) = (self.motion, self.motion.normal);
@@ -147,6 +157,7 @@ impl<'a, R: Real> Resistance<'a, R> {
         let twist = R::splat(0.5) * (motion.spin_i_mid + motion.spin_j_mid).dot(normal) * self.elapsed;
         let carried = carried_along(rotation, before, normal, along, turned, twist);
         *spring = carried;
+        let step = velocity_mid * self.elapsed;
         let step = match rotation {
             // The displacement was made, on average, half a twist ago.
             SpringRotation::Twist => step + normal.cross(step) * (R::splat(0.5) * twist),
@@ -160,8 +171,9 @@ impl<'a, R: Real> Resistance<'a, R> {
             },
             spring,
         );
+        let half = R::splat(0.5 * slider.stiffness);
+        answer.dissipated_slip += half * (carried + *spring).dot(velocity_mid * self.missed);
         if matches!(rotation, SpringRotation::Project | SpringRotation::Rate) {
-            let half = R::splat(0.5 * slider.stiffness);
             answer.dissipated_slip += half * (before.norm_squared() - carried.norm_squared());
         }
         answer
@@ -170,11 +182,15 @@ impl<'a, R: Real> Resistance<'a, R> {
     /// The distances of the contact point from the two centres [m].
     #[inline(always)]
     fn arms(&self, overlap: R) -> (R, R) {
-        let arm = |radius: R| match self.conventions.lever_arm {
-            LeverArm::Corrected => radius - (R::splat(0.5) * overlap).keep_where(radius.gt(R::zero())),
-            LeverArm::Radius => radius,
-        };
-        (arm(self.motion.radius_i), arm(self.motion.radius_j))
+        let (radius_i, radius_j) = (self.motion.radius_i, self.motion.radius_j);
+        match self.conventions.lever_arm {
+            LeverArm::Corrected => {
+                let half = R::splat(0.5) * overlap;
+                // A wall has no arm that could be shortened.
+                (radius_i - half, radius_j - half.keep_where(radius_j.gt(R::zero())))
+            }
+            LeverArm::Radius => (radius_i, radius_j),
+        }
     }
 
     /// The length L of the rolling and torsion velocities [m].

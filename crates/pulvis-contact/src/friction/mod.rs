@@ -63,23 +63,27 @@ pub(crate) fn carried_along<R: Real>(
     turned: Vector3<R>,
     mean_twist: R,
 ) -> Vector3<R> {
-    // Back in the tangent plane and to the length that the spring had, whatever moved it.
-    let restored = |moved: Vector3<R>| {
-        let projected = moved.tangential_to(normal);
-        let remaining = projected.norm_squared();
-        let stretched = (spring.norm_squared() / remaining).sqrt();
-        projected * R::select(remaining.gt(R::zero()), stretched, R::one())
-    };
     match rotation {
-        SpringRotation::Rescale => restored(spring),
+        SpringRotation::Rescale => restored(spring, spring, normal),
         SpringRotation::Project => spring.tangential_to(normal),
         SpringRotation::Twist => {
             // Projection loses half the square of the turn along the way of the normal.
             let lost = turned * (R::splat(0.5) * turned.dot(spring));
-            restored(spring + lost + normal.cross(spring) * mean_twist)
+            restored(spring + lost + normal.cross(spring) * mean_twist, spring, normal)
         }
         SpringRotation::Rate => spring - normal * turn_rate_normal,
     }
+}
+
+/// A moved spring, back in the tangent plane and at the length that it had before, whatever moved it.
+// A function and not a closure: closures are not inlined by force, and out of line they are compiled
+// without the vector instructions of the loop that calls them.
+#[inline(always)]
+fn restored<R: Real>(moved: Vector3<R>, before: Vector3<R>, normal: Vector3<R>) -> Vector3<R> {
+    let projected = moved.tangential_to(normal);
+    let remaining = projected.norm_squared();
+    let stretched = (before.norm_squared() / remaining).sqrt();
+    projected * R::select(remaining.gt(R::zero()), stretched, R::one())
 }
 
 macro_rules! friction_laws {
