@@ -9,7 +9,8 @@ use crate::{book, check_docs, experiments, scenarios, tests};
 /// A step, by its name.
 type Step = (&'static str, fn() -> Outcome);
 
-/// Everything, one profile: tests, the binary and the tasks share their builds.
+/// Everything, in one profile, so that tests, binary and tasks share their builds. A step that fails does not hide the
+/// findings of the next ones.
 pub fn run_all() -> Outcome {
     let steps: [Step; 8] = [
         ("formatting", || run(&mut cargo(&["fmt", "--all", "--check"]))),
@@ -21,15 +22,22 @@ pub fn run_all() -> Outcome {
         ("scenarios", scenarios::run),
         ("experiments", || experiments::run(None)),
     ];
-    let mut times = Vec::new();
+    let (mut times, mut failures) = (Vec::new(), Vec::new());
     for (name, step) in steps {
         println!("\n==== {name}");
         let began = Instant::now();
-        step().map_err(|message| format!("{name}: {message}"))?;
+        if let Err(message) = step() {
+            eprintln!("error: {name}: {message}");
+            failures.push(name);
+        }
         times.push(format!("{name} {:.0} s", began.elapsed().as_secs_f64()));
     }
-    println!("\nall well: {}", times.join(", "));
-    Ok(())
+    println!("\n{}", times.join(", "));
+    if failures.is_empty() {
+        println!("all well");
+        return Ok(());
+    }
+    Err(format!("these steps failed: {}", failures.join(", ")))
 }
 
 fn lints() -> Outcome {
