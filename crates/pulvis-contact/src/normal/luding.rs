@@ -192,6 +192,12 @@ impl Luding {
         }
     }
 
+    /// Un-/re-loading stiffness k2 [N/m] at the largest overlap D, with 1/δ_p.
+    #[inline(always)]
+    fn stiffness<R: Real>(&self, overlap_max: R, inverse_limit: R) -> R {
+        R::splat(self.k1) + R::splat(self.kp - self.k1) * self.hardening(overlap_max, inverse_limit)
+    }
+
     /// The largest overlap D [m] whose k2 line passes through the point (δ, −kc δ) of the tensile
     /// limit branch: the inverse of δ_min(D) = (k2 − k1)/(k2 + kc) D, S1 section 2.2.5.
     #[inline(always)]
@@ -237,14 +243,12 @@ impl NormalLaw for Luding {
         memory: &mut LudingMemory<R>,
     ) -> NormalResponse<R> {
         let (k1, kc) = (R::splat(self.k1), R::splat(self.kc));
-        let span = R::splat(self.kp - self.k1);
         let limit = self.plastic_limit(pair);
         let inverse_limit = self.inverse_plastic_limit(pair);
-        let stiffness = |overlap_max: R| k1 + span * self.hardening(overlap_max, inverse_limit);
 
         let before = memory.overlap_max;
         let loaded = before.max(overlap.min(limit));
-        let k2_loaded = stiffness(loaded);
+        let k2_loaded = self.stiffness(loaded, inverse_limit);
         let line = k2_loaded * overlap - (k2_loaded - k1) * loaded;
         let tensile_limit = -(kc * overlap);
         let on_limit = line.lt(tensile_limit);
@@ -255,10 +259,17 @@ impl NormalLaw for Luding {
             let shrunk = self.overlap_max_on_limit(overlap, limit, inverse_limit);
             // Never above what it was: round-off must not make a contact grow on this branch.
             after = R::select(on_limit, shrunk.min(loaded), loaded);
-            k2 = stiffness(after);
+            k2 = self.stiffness(after, inverse_limit);
         }
         after = after.keep_where(overlap.gt(R::zero()));
         memory.overlap_max = after;
+        let (mut plastic, mut adhesive) = (R::zero(), R::zero());
+        // In most contacts of a packing at rest the history does not change, and nothing is lost.
+        if (loaded.gt(before) | on_limit).any() {
+            let k2_before = self.stiffness(before, inverse_limit);
+            plastic = self.plastic_work(loaded, k2_loaded) - self.plastic_work(before, k2_before);
+            adhesive = self.adhesive_work(loaded, k2_loaded) - self.adhesive_work(after, k2);
+        }
 
         NormalResponse {
             force,
@@ -266,9 +277,8 @@ impl NormalLaw for Luding {
             hardening: self.hardening(after, inverse_limit),
             overlap_scale: if self.has_plastic_limit() { limit } else { pair.harmonic_radius },
             stored_energy: R::splat(0.5) * force * force / k2,
-            dissipated_plastic: self.plastic_work(loaded, k2_loaded)
-                - self.plastic_work(before, stiffness(before)),
-            dissipated_adhesive: self.adhesive_work(loaded, k2_loaded) - self.adhesive_work(after, k2),
+            dissipated_plastic: plastic,
+            dissipated_adhesive: adhesive,
         }
     }
 

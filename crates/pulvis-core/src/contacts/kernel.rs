@@ -120,65 +120,102 @@ fn sweep_pairs<N: NormalLaw, const FRICTION: bool>(
     images: Images,
     advance: Advance,
 ) {
-    let composition = group.model.composition;
-    let reach = Lane::splat(-composition.noncontact.reach());
+    let reach = Lane::splat(-group.model.composition.noncontact.reach());
     let mut energies = ContactEnergies::<Lane>::default();
-    for block in 0..group.first.len() {
-        if group.gap[block] > advance.closed && !group.live[block] {
-            continue;
+    let mut bodies = [(Body::default(), Body::default()); BATCH];
+    let blocks = group.first.len();
+    for start in (0..blocks).step_by(BATCH) {
+        let batch = start..(start + BATCH).min(blocks);
+        let mut looked_at = 0_u32;
+        for block in batch.clone() {
+            if group.gap[block] > advance.closed && !group.live[block] {
+                continue;
+            }
+            let (first, second) = &mut bodies[block - start];
+            first.gather_place(moving, &group.first[block]);
+            second.gather_place(moving, &group.second[block]);
+            looked_at |= 1 << (block - start);
         }
-        let (first, second) = (group.first[block], group.second[block]);
-        let separation = gather3(moving.position, &first) - gather3(moving.position, &second);
-        let separation = images.nearest(separation);
-        let radius_i = gather(moving.radius, &first);
-        let radius_j = gather(moving.radius, &second);
-        let distance = separation.norm();
-        // Idle lanes are out of any reach.
-        let idle = reach + reach - radius_i;
-        let overlap = Lane::select(filled_lanes(group.filled(block)), radius_i + radius_j - distance, idle);
-        let acts = overlap.gt(reach).any();
-        if !acts && !group.live[block] {
-            continue;
+        let mut acting = 0_u32;
+        for block in batch.clone().filter(|block| looked_at & (1 << (block - start)) != 0) {
+            let (first, second) = &bodies[block - start];
+            let separation = images.nearest(first.position - second.position);
+            let overlap = first.radius + second.radius - separation.norm();
+            let valid = filled_lanes(group.filled(block));
+            let acts = (overlap.gt(reach) & valid).any();
+            if acts || group.live[block] {
+                acting |= 1 << (block - start);
+            }
+            group.live[block] = acts;
         }
-        group.live[block] = acts;
-        let inverse_distance = Lane::one() / distance;
-        let (mut spin_i, mut spin_j) = <(Vector3<Lane>, Vector3<Lane>)>::default();
-        let (mut spin_i_mid, mut spin_j_mid) = (spin_i, spin_j);
-        if FRICTION {
-            (spin_i, spin_j) = gather_both(moving.spin, &first, &second);
-            (spin_i_mid, spin_j_mid) = gather_both(moving.spin_mid, &first, &second);
+        for block in batch.clone().filter(|block| acting & (1 << (block - start)) != 0) {
+            let (first, second) = &mut bodies[block - start];
+            first.gather_motion::<FRICTION>(moving, &group.first[block]);
+            second.gather_motion::<FRICTION>(moving, &group.second[block]);
         }
-        let (now_i, now_j) = gather_both(moving.velocity, &first, &second);
-        let (mid_i, mid_j) = gather_both(moving.velocity_mid, &first, &second);
-        let motion = PairMotion {
-            normal: separation * inverse_distance,
-            overlap,
-            inverse_distance,
-            radius_i,
-            radius_j,
-            velocity: now_i - now_j,
-            velocity_mid: mid_i - mid_j,
-            spin_i,
-            spin_j,
-            spin_i_mid,
-            spin_j_mid,
-        };
-        let (mass_i, mass_j) = (gather(moving.mass, &first), gather(moving.mass, &second));
-        let pair = Pair::spheres(mass_i, mass_j, radius_i, radius_j);
-        let answer = respond_block::<N, FRICTION>(&law, group, block, &pair, &motion, advance.time_step);
-        energies += answer.energies;
+        for block in batch.filter(|block| acting & (1 << (block - start)) != 0) {
+            let (first, second) = &bodies[block - start];
+            let separation = images.nearest(first.position - second.position);
+            let distance = separation.norm();
+            let inverse_distance = Lane::one() / distance;
+            // Idle lanes are out of any reach.
+            let idle = reach + reach - first.radius;
+            let overlap = first.radius + second.radius - distance;
+            let motion = PairMotion {
+                normal: separation * inverse_distance,
+                overlap: Lane::select(filled_lanes(group.filled(block)), overlap, idle),
+                inverse_distance,
+                radius_i: first.radius,
+                radius_j: second.radius,
+                velocity: first.velocity - second.velocity,
+                velocity_mid: first.velocity_mid - second.velocity_mid,
+                spin_i: first.spin,
+                spin_j: second.spin,
+                spin_i_mid: first.spin_mid,
+                spin_j_mid: second.spin_mid,
+            };
+            let pair = Pair::spheres(first.mass, second.mass, first.radius, second.radius);
+            let answer = respond_block::<N, FRICTION>(&law, group, block, &pair, &motion, advance.time_step);
+            energies += answer.energies;
+        }
     }
     group.totals = ContactTotals { energies: energies.sum_lanes(), force: Vector3::zero() };
 }
 
-/// One vector of each of eight first and eight second rows.
-#[inline(always)]
-fn gather_both(
-    column: &[Vector3],
-    first: &[u32; WIDTH],
-    second: &[u32; WIDTH],
-) -> (Vector3<Lane>, Vector3<Lane>) {
-    (gather3(column, first), gather3(column, second))
+/// Blocks whose bodies are gathered before any of them is computed. Gathering and computing block by
+/// block, the compiler carries the gathered numbers one by one into the arithmetic; from memory it
+/// takes them eight at a time.
+const BATCH: usize = 8;
+
+/// Eight bodies, one a lane.
+#[derive(Clone, Copy, Default)]
+struct Body {
+    position: Vector3<Lane>,
+    radius: Lane,
+    mass: Lane,
+    velocity: Vector3<Lane>,
+    velocity_mid: Vector3<Lane>,
+    spin: Vector3<Lane>,
+    spin_mid: Vector3<Lane>,
+}
+
+impl Body {
+    #[inline(always)]
+    fn gather_place(&mut self, moving: Moving<'_>, rows: &[u32; WIDTH]) {
+        self.position = gather3(moving.position, rows);
+        self.radius = gather(moving.radius, rows);
+    }
+
+    #[inline(always)]
+    fn gather_motion<const FRICTION: bool>(&mut self, moving: Moving<'_>, rows: &[u32; WIDTH]) {
+        self.mass = gather(moving.mass, rows);
+        self.velocity = gather3(moving.velocity, rows);
+        self.velocity_mid = gather3(moving.velocity_mid, rows);
+        if FRICTION {
+            self.spin = gather3(moving.spin, rows);
+            self.spin_mid = gather3(moving.spin_mid, rows);
+        }
+    }
 }
 
 struct WallSweep<'a> {
