@@ -6,6 +6,7 @@ mod check_docs;
 mod ci;
 mod expected;
 mod experiments;
+mod features;
 mod figures;
 mod process;
 mod scenarios;
@@ -23,6 +24,7 @@ usage: cargo xtask <task>
   test                 all tests, and the VTK files read by Python's VTK where it can be installed
   ci                   everything that must hold before a change is merged
   experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
+  features FOLDER      says what is seen in the tablet's run in FOLDER, and whether it is what was asked for
   scenarios            shows every good and bad scenario of the tests to the pulvis command
   figures              makes the pictures of README and docs anew
   book                 writes the book's table of laws from the catalogue, builds the book if mdbook is there
@@ -38,6 +40,7 @@ fn main() -> ExitCode {
         ["ci"] => ci::run_all(),
         ["experiments"] => experiments::run(None),
         ["experiments", folder] => experiments::run(Some(folder)),
+        ["features", folder] => features::run(folder),
         ["scenarios"] => scenarios::run(),
         ["figures"] => figures::run_all(),
         ["book"] => book::write(),

@@ -35,9 +35,10 @@ pub fn cargo(arguments: &[&str]) -> Command {
     command
 }
 
-/// The `pulvis` command in the profile of the tests, built first if it is not up to date.
+/// The `pulvis` command, built first if it is not up to date, together with the tests: their dependencies switch on
+/// features of shared crates, and without them the engine would be compiled once more.
 pub fn pulvis() -> Outcome<PathBuf> {
-    run(&mut cargo(&["build", "--workspace", "--bins"]))?;
+    run(&mut cargo(&["build", "--workspace", "--bins", "--tests"]))?;
     let name = format!("pulvis{}", std::env::consts::EXE_SUFFIX);
     let own = std::env::current_exe().map_err(|error| error.to_string())?;
     let path = own.with_file_name(name);
