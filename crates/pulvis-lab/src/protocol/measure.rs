@@ -102,8 +102,8 @@ impl Measure {
             row.extend([wall.offset(), -simulation.wall_force(place).dot(wall.normal)]);
         }
         if let Some(scaled) = &self.scaled {
-            for axis in 0..3 {
-                let displacement = lengths[axis].zip(scaled.reference[axis]);
+            for (axis, (now, reference)) in lengths.iter().zip(scaled.reference).enumerate() {
+                let displacement = now.zip(reference);
                 let force = wall_force(scenario, simulation, axis);
                 row.push(displacement.map_or(f64::NAN, |(now, start)| (now - start) / scaled.length));
                 row.push(force.map_or(f64::NAN, |force| force / (scaled.stiffness * scaled.length)));
