@@ -36,7 +36,9 @@ pub fn collisions(path: &Path) -> Outcome<Collisions> {
         for mut point in root.tables("points")? {
             let chi = point.required("chi", Dimension::NONE)?;
             points.push((chi, point.required("restitution", Dimension::NONE)?));
+            leave_the_rest(point);
         }
+        leave_the_rest(root);
         Ok(Collisions { tolerance, points })
     })
 }
@@ -44,9 +46,21 @@ pub fn collisions(path: &Path) -> Outcome<Collisions> {
 /// Reads the tables `[[NAME.timeseries]]` that the scenario NAME.toml of the experiment must meet.
 pub fn demands(path: &Path, scenario: &str) -> Outcome<Vec<Demand>> {
     read(path, |mut root| {
-        let Some(mut own) = root.optional_table(scenario)? else { return Ok(Vec::new()) };
-        own.tables("timeseries")?.into_iter().map(demand).collect()
+        let own = root.optional_table(scenario)?;
+        leave_the_rest(root);
+        let Some(mut own) = own else { return Ok(Vec::new()) };
+        let demands = own.tables("timeseries")?.into_iter().map(demand).collect();
+        leave_the_rest(own);
+        demands
     })
+}
+
+/// Closes a table that holds keys for other readers.
+fn leave_the_rest(mut table: TableReader<'_>) {
+    for key in table.keys() {
+        table.value(key);
+    }
+    table.finish();
 }
 
 fn demand(mut table: TableReader<'_>) -> Result<Demand, Reported> {
