@@ -28,7 +28,7 @@ pub(crate) struct Run {
     pub(crate) warm_up: u64,
     /// Number of threads.
     #[arg(long, default_value_t = 1)]
-    threads: usize,
+    pub(crate) threads: usize,
     /// Whether energies are accounted for.
     #[arg(long, value_enum, default_value_t = Ledger::On)]
     ledger: Ledger,
@@ -122,10 +122,9 @@ enum Choice {
 impl Run {
     /// Refuses what the engine cannot do yet.
     fn checked(&self) -> Result<&Self, Failure> {
-        match (self.threads, self.ledger) {
-            (1, Ledger::On) => Ok(self),
-            (1, Ledger::Off) => Err(Failure::Ledger),
-            (threads, _) => Err(Failure::Threads(threads)),
+        match self.ledger {
+            Ledger::On => Ok(self),
+            Ledger::Off => Err(Failure::Ledger),
         }
     }
 }

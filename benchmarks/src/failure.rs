@@ -28,9 +28,6 @@ pub(crate) enum Failure {
     /// The tablet's lattice is a cube.
     #[error("{0} particles do not fill a cubic lattice; write for example 216 or 1728")]
     NoCube(usize),
-    /// More than one thread.
-    #[error("{0} threads asked for, but the engine runs on one thread so far; write --threads 1")]
-    Threads(usize),
     /// No ledger.
     #[error("the engine keeps its energy ledger in every step so far; write --ledger on")]
     Ledger,

@@ -25,10 +25,14 @@ pub(crate) fn run(name: &str, setup: Setup, run: &Run) -> Result<(), Failure> {
     if let Some(skin) = run.skin {
         simulation.set_skin(skin)?;
     }
-    for _ in 0..run.warm_up {
-        simulation.step()?;
-    }
-    let times = timed_steps(&mut simulation, run.steps)?;
+    simulation.set_threads(run.threads)?;
+    let team = simulation.team().clone();
+    let times = team.run(|| {
+        for _ in 0..run.warm_up {
+            simulation.step()?;
+        }
+        timed_steps(&mut simulation, run.steps)
+    })?;
     print(name, &mut simulation, run.steps, &times);
     match &run.write {
         Some(path) => write_table(&simulation, path),
