@@ -80,11 +80,12 @@ impl<'a> StageWatch<'a> {
     pub(super) fn ending(&mut self, simulation: &mut Simulation) -> Option<Ending> {
         // Half a step of tolerance: sums of time steps are not exact.
         let elapsed = simulation.time() - self.start_time + 0.5 * simulation.time_step();
-        if self.rules.time.is_some_and(|time| elapsed >= time) {
-            return Some(Ending::Time);
-        }
-        if self.rules.time.is_none() && cycles_duration(simulation).is_some_and(|time| elapsed >= time) {
-            return Some(Ending::Cycles);
+        let cycles = cycles_duration(simulation);
+        // A stage that has no rule but a wall's cycles takes their duration for its time.
+        if let Some(end) = self.rules.time.or(cycles)
+            && elapsed >= end
+        {
+            return Some(if cycles == Some(end) { Ending::Cycles } else { Ending::Time });
         }
         if self.strain_reached(simulation) {
             return Some(Ending::Strain);

@@ -1,0 +1,197 @@
+//! What a run does and leaves behind: endings of stages, files, threads, interruption.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
+
+mod protocol_scenarios;
+
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use protocol_scenarios::{Series, options, run, run_with, small_tablet, tablet};
+use pulvis_input::scenario::Scenario;
+use pulvis_lab::protocol::{Ending, PrepareError, RunError, RunOptions};
+
+/// The small tablet with coarse steps, for what does not depend on them.
+fn coarse() -> Scenario {
+    tablet(&[("steps_per_contact_time = 50", "steps_per_contact_time = 20")])
+}
+
+/// The small tablet whose first stage ends by a rule and is the last.
+fn pressed_until(rule: &str, control: &str) -> Scenario {
+    let text = include_str!("protocol_scenarios/tablet.toml");
+    let [start, _] = split(text, "[[stages]]");
+    let [_, output] = split(text, "[output]");
+    let output = output.replace(", reference_stage = \"release\"", "");
+    let stage = format!("[[stages]]\nname = \"press\"\nuntil = {rule}\n{control}\n");
+    protocol_scenarios::scenario(&format!("{start}{stage}[output]{output}"))
+}
+
+fn split<'a>(text: &'a str, at: &str) -> [&'a str; 2] {
+    text.split_once(at).unwrap().into()
+}
+
+#[test]
+fn each_stage_ends_for_the_reason_that_its_rules_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let summary = run(&coarse(), folder.path());
+    let endings: Vec<_> = summary.stages.iter().map(|stage| (stage.name.as_str(), stage.ending)).collect();
+    assert_eq!(endings, [("press", Ending::Time), ("release", Ending::AtRest), ("pull", Ending::Cycles)]);
+    let [press, release, pull] = &summary.stages[..] else { panic!("three stages") };
+    // A stage ends with the step that is nearest to its end.
+    assert!((press.time - 0.15e-6).abs() < 2e-11, "{}", press.time);
+    assert!((pull.time - release.time - 0.1e-6).abs() < 2e-11);
+    let series = Series::read(folder.path());
+    let [kinetic, elastic] = ["kinetic", "elastic"].map(|name| series.of_stage(name, 2));
+    assert!(kinetic.last().unwrap() / elastic.last().unwrap() <= 1e-2);
+    assert_eq!(summary.steps, pull.steps);
+}
+
+#[test]
+fn the_servo_reaches_its_pressure_and_the_cosine_brings_the_plate_back() {
+    let folder = tempfile::tempdir().unwrap();
+    run(&coarse(), folder.path());
+    let series = Series::read(folder.path());
+    for axis in ["x", "y", "z"] {
+        let stress = *series.of_stage(&format!("wall_stress_{axis}"), 1).last().unwrap();
+        assert!((stress / 1e10 - 1.0).abs() < 0.05, "{stress:e} along {axis}");
+    }
+    let displacement = series.of_stage("D_x", 3);
+    let farthest = displacement.iter().copied().fold(0.0, f64::max);
+    // The row nearest to the turning point is half an interval of 1 ns away at most, of a period of 100 ns.
+    assert!((farthest - 0.1).abs() < 1e-4, "{farthest}");
+    assert!(displacement.last().unwrap().abs() < 1e-6);
+    let force = series.of_stage("F_x", 3);
+    assert!(force.iter().copied().fold(0.0, f64::min) < -1e-3, "the sample is pulled");
+}
+
+#[test]
+fn removed_walls_have_no_force_and_no_stress_any_more() {
+    let folder = tempfile::tempdir().unwrap();
+    run(&coarse(), folder.path());
+    let series = Series::read(folder.path());
+    for name in ["y-low", "y-high", "z-low", "z-high"] {
+        assert!(series.of_stage(&format!("force_{name}"), 3).iter().all(|&force| force == 0.0), "{name}");
+        assert!(series.of_stage(&format!("force_{name}"), 2).iter().any(|&force| force > 0.0), "{name}");
+    }
+    assert!(series.of_stage("wall_stress_y", 3).iter().all(|stress| stress.is_nan()));
+}
+
+#[test]
+fn a_stage_ends_at_the_strain_that_is_asked_for() {
+    let scenario = pressed_until(
+        "{ strain = { axis = \"z\", value = -0.02 } }",
+        "walls.z-high = { control = \"velocity\", velocity = [\"0 m/s\", \"0 m/s\", \"-20 m/s\"] }",
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let summary = run(&scenario, folder.path());
+    assert_eq!(summary.stages[0].ending, Ending::Strain);
+    let strain = *Series::read(folder.path()).column("strain_z").last().unwrap();
+    // One step of 2e-11 s at 20 m/s is a strain of 1e-5.
+    assert!((-0.0201..=-0.02).contains(&strain), "{strain}");
+}
+
+#[test]
+fn a_stage_ends_when_the_stress_crosses_its_value_from_the_stated_side() {
+    let scenario = pressed_until(
+        "{ stress = { axis = \"z\", value = \"1e9 Pa\", crosses = \"upwards\" }, time = \"1 us\" }",
+        "walls.z-high = { control = \"velocity\", velocity = [\"0 m/s\", \"0 m/s\", \"-20 m/s\"] }",
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let summary = run(&scenario, folder.path());
+    assert_eq!(summary.stages[0].ending, Ending::Stress);
+    let stress = Series::read(folder.path()).column("wall_stress_z");
+    assert!(*stress.last().unwrap() >= 1e9, "{:e}", stress.last().unwrap());
+    assert!(stress[0] < 1e9);
+}
+
+#[test]
+fn the_record_of_a_run_is_a_scenario_that_gives_the_same_run() {
+    let [first, second] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let scenario = coarse();
+    run(&scenario, first.path());
+    let again = Scenario::load(first.path().join("run.toml")).unwrap();
+    let plain = |scenario: &Scenario| Scenario { source: small_tablet().source, ..scenario.clone() };
+    assert_eq!(plain(&again), plain(&scenario));
+    run(&again, second.path());
+    assert_eq!(bytes(first.path()), bytes(second.path()));
+}
+
+#[test]
+fn two_threads_give_the_same_bits_as_one() {
+    let [one, two] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let scenario = coarse();
+    run(&scenario, one.path());
+    let threads = RunOptions { threads: Some(2), ..options(two.path()) };
+    run_with(&scenario, &threads, &AtomicBool::new(false), &mut |_| {}).unwrap();
+    assert_eq!(bytes(one.path()), bytes(two.path()));
+}
+
+fn bytes(folder: &Path) -> Vec<u8> {
+    fs::read(folder.join("timeseries.csv")).unwrap()
+}
+
+#[test]
+fn an_interrupted_run_leaves_complete_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let stop = AtomicBool::new(false);
+    let mut told = Vec::new();
+    let summary = run_with(&coarse(), &options(folder.path()), &stop, &mut |progress| {
+        told.extend(progress.ending);
+        // At the end of the first stage: the second one is stopped on its way.
+        stop.store(progress.ending.is_some(), Ordering::Relaxed);
+    });
+    let summary = summary.unwrap();
+    assert!(summary.interrupted());
+    assert_eq!(told, [Ending::Time, Ending::Interrupted]);
+    assert_eq!(summary.stages.len(), 2);
+    let series = Series::read(folder.path());
+    assert_eq!(*series.column("step").last().unwrap(), summary.steps as f64);
+    let index = fs::read_to_string(folder.path().join("series.pvd")).unwrap();
+    assert!(index.trim_end().ends_with("</VTKFile>"), "{index}");
+    // At the start, at the end of the first stage and where it was stopped.
+    let frames: Vec<&str> = index.split("file=\"").skip(1).map(|rest| split(rest, "\"")[0]).collect();
+    assert_eq!(frames.len(), 3, "{index}");
+    assert!(frames.iter().all(|frame| folder.path().join(frame).exists()));
+    Scenario::load(folder.path().join("run.toml")).unwrap();
+}
+
+#[test]
+fn a_folder_in_use_is_refused_and_force_writes_over_the_run_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let at_once = AtomicBool::new(true);
+    let scenario = coarse();
+    let start = |force| {
+        let options = RunOptions { force, ..options(folder.path()) };
+        run_with(&scenario, &options, &at_once, &mut |_| {})
+    };
+    start(false).unwrap();
+    fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+    fs::write(folder.path().join("particles_0009.vtp"), "of a longer run").unwrap();
+    let before = bytes(folder.path());
+    let refused = start(false).unwrap_err();
+    assert!(refused.is_bad_input());
+    assert!(matches!(refused, RunError::Prepare(PrepareError::FolderInUse { .. })), "{refused}");
+    assert_eq!(bytes(folder.path()), before, "nothing was touched");
+    start(true).unwrap();
+    assert!(!folder.path().join("particles_0009.vtp").exists());
+    assert_eq!(fs::read_to_string(folder.path().join("notes.txt")).unwrap(), "mine");
+}
+
+#[test]
+fn what_only_the_particles_can_tell_is_refused_before_anything_is_written() {
+    for (changes, words) in [
+        ([("spacing = \"10.8 um\"", "spacing = \"8 um\"")], "of its radius at the start"),
+        (
+            [("time = { steps_per_contact_time = 50 }", "time = { step = \"1e-9 s\" }")],
+            "longer than 1/10 of the shortest contact",
+        ),
+    ] {
+        let parent = tempfile::tempdir().unwrap();
+        let folder = parent.path().join("run");
+        let refused = run_with(&tablet(&changes), &options(&folder), &AtomicBool::new(false), &mut |_| {});
+        let refused = refused.unwrap_err();
+        assert!(refused.is_bad_input() && refused.to_string().contains(words), "{refused}");
+        assert!(!folder.exists());
+    }
+}
