@@ -12,7 +12,12 @@ use commands::Command;
 
 /// Discrete element method for adhesive, elasto-plastic meso-particles.
 #[derive(Debug, Parser)]
-#[command(name = "pulvis", version, about, after_help = "Exit codes: 0 done, 1 failed while running, 2 bad input, 130 interrupted.")]
+#[command(
+    name = "pulvis",
+    version,
+    about,
+    after_help = "Exit codes: 0 done, 1 failed while running, 2 bad input, 130 interrupted."
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

@@ -32,7 +32,8 @@ fn describe(scenario: &Scenario, forecast: &Preflight) -> String {
     let title = scenario.title.as_deref().unwrap_or("untitled");
     let _ = writeln!(text, "{}: {title}: valid", scenario.source.name);
     let [small, large] = forecast.radii;
-    let _ = writeln!(text, "particles         {} with radii {small:.4e} to {large:.4e} m", forecast.particles);
+    let _ =
+        writeln!(text, "particles         {} with radii {small:.4e} to {large:.4e} m", forecast.particles);
     let [light, heavy] = forecast.masses;
     let total = forecast.total_mass;
     let _ = writeln!(text, "masses            {light:.4e} to {heavy:.4e} kg, together {total:.4e} kg");
@@ -42,12 +43,18 @@ fn describe(scenario: &Scenario, forecast: &Preflight) -> String {
     }
     for (number, stage) in forecast.stages.iter().enumerate() {
         let limit = if stage.open_ended { "at most " } else { "" };
-        let steps = stage.steps.map_or("until its rule holds".to_owned(), |steps| format!("{limit}{steps} steps"));
-        let shortest = stage.shortest.as_ref().map_or(String::new(), |(time, between)| {
-            format!(", shortest contact {time:.4e} s ({between})")
-        });
+        let steps =
+            stage.steps.map_or("until its rule holds".to_owned(), |steps| format!("{limit}{steps} steps"));
+        let shortest = stage
+            .shortest
+            .as_ref()
+            .map_or(String::new(), |(time, between)| format!(", shortest contact {time:.4e} s ({between})"));
         let heading = if number == 0 { "stages" } else { "" };
-        let _ = writeln!(text, "{heading:<17} {}: time step {:.4e} s, {steps}{shortest}", stage.name, stage.time_step);
+        let _ = writeln!(
+            text,
+            "{heading:<17} {}: time step {:.4e} s, {steps}{shortest}",
+            stage.name, stage.time_step
+        );
     }
     let _ = writeln!(
         text,
@@ -57,7 +64,11 @@ fn describe(scenario: &Scenario, forecast: &Preflight) -> String {
         forecast.memory as f64 / forecast.particles.max(1) as f64
     );
     let seconds = forecast.seconds_per_step;
-    let open = if forecast.stages.iter().any(|stage| stage.steps.is_none()) { ", and stages of open end" } else { "" };
+    let open = if forecast.stages.iter().any(|stage| stage.steps.is_none()) {
+        ", and stages of open end"
+    } else {
+        ""
+    };
     let _ = writeln!(
         text,
         "time              {} for {} steps at {:.0} steps/s on this machine{open}",

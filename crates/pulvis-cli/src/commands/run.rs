@@ -113,7 +113,8 @@ fn describe_progress(progress: &Progress) -> String {
 }
 
 fn describe(summary: &RunSummary) -> String {
-    let state = if summary.interrupted() { "interrupted; files are complete up to the last step" } else { "done" };
+    let state =
+        if summary.interrupted() { "interrupted; files are complete up to the last step" } else { "done" };
     let rate = summary.steps as f64 * summary.particles as f64 / summary.wall_clock.max(1e-9);
     let mut text = format!(
         "{state}: {} steps of {} particles in {} ({rate:.2e} particle-steps/s)\n",
