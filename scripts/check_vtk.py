@@ -87,7 +87,9 @@ def check_frame(path, time, sample):
     if count and lines and {"id"} <= set(of_particles) and {"id1", "id2"} <= set(of_contacts):
         known = set(of_particles["id"].tolist())
         for name in ("id1", "id2"):
-            missing = set(of_contacts[name].tolist()) - known
+            # A wall contact has no second particle: its id2 is -1 - the number of the wall.
+            named = {number for number in of_contacts[name].tolist() if name == "id1" or number >= 0}
+            missing = named - known
             require(not missing, f"{path}: {name} names particles that do not exist: {sorted(missing)[:5]}")
     if sample and count:
         check_sample(particles, contacts, of_particles, of_contacts, time)
