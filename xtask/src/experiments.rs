@@ -10,8 +10,8 @@ use crate::process::{pulvis, root, run as run_command, scratch, text};
 use crate::table::Table;
 use crate::tests::read_by_vtk;
 
-/// The largest relative closing error of the energy ledger that a run may have. Issue 2 asks for it of
-/// the short tablet at the automatic time step.
+/// The largest relative closing error of the energy ledger that a run may have, at the automatic time
+/// step.
 const LEDGER_TOLERANCE: f64 = 1e-4;
 
 /// Runs the experiments of the folders, or of one.

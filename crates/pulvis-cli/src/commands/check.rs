@@ -101,7 +101,7 @@ fn describe_contact(text: &mut String, contact: &ContactForecast) {
 
 fn sticking(velocities: &CriticalVelocities) -> String {
     match (velocities.low_end, velocities.high_onset, velocities.high_end) {
-        (_, None, None) => "never sticks by plasticity".to_owned(),
+        (_, None, None) => "pairs never stick".to_owned(),
         (_, None, Some(end)) => format!("sticks below {end:.4e} m/s"),
         (Some(low), Some(onset), Some(end)) if low > 0.0 => {
             format!("sticks below {low:.4e} m/s and from {onset:.4e} to {end:.4e} m/s")

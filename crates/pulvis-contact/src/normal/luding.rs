@@ -246,7 +246,8 @@ impl NormalLaw for Luding {
         let limit = self.plastic_limit(pair);
         let inverse_limit = self.inverse_plastic_limit(pair);
 
-        let before = memory.overlap_max;
+        // A switch of parameters may have lowered the limit below what the contact remembers.
+        let before = memory.overlap_max.min(limit);
         let loaded = before.max(overlap.min(limit));
         let k2_loaded = self.stiffness(loaded, inverse_limit);
         let line = k2_loaded * overlap - (k2_loaded - k1) * loaded;
@@ -284,7 +285,7 @@ impl NormalLaw for Luding {
 
     fn branch(&self, pair: &Pair<f64>, overlap: f64, memory: &LudingMemory<f64>) -> (u8, &'static str) {
         let limit = self.plastic_limit(pair);
-        let loaded = memory.overlap_max.max(overlap.min(limit));
+        let loaded = memory.overlap_max.min(limit).max(overlap.min(limit));
         let k2 = self.k1 + (self.kp - self.k1) * self.hardening(loaded, self.inverse_plastic_limit(pair));
         let line = k2 * overlap - (k2 - self.k1) * loaded;
         // After the response the point lies on the tensile limit to round-off of the line's two
@@ -324,4 +325,21 @@ fn largest_cubic_root<R: Real>(y: R, c: f64) -> R {
         }
     }
     root
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_contact_that_remembers_more_than_its_law_allows_is_fully_plastic_and_no_stiffer() {
+        let law =
+            Luding { k1: 100.0, kp: 500.0, kc: 50.0, phi_f: 0.05, interpolation: Interpolation::Linear };
+        let pair = Pair::spheres(1e-6, 1e-6, 1e-3, 1e-3);
+        let limit: f64 = law.plastic_limit(&pair);
+        let overlap = 0.9 * limit;
+        let respond = |overlap_max: f64| law.respond(&pair, overlap, &mut LudingMemory { overlap_max });
+        assert_eq!(respond(1.5 * limit), respond(limit));
+        assert!((respond(limit).force - 500.0 * (overlap - 0.05 * 1e-3)).abs() < 1e-15);
+    }
 }
