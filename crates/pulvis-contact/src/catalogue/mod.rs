@@ -7,8 +7,10 @@ use std::fmt;
 
 use pulvis_math::Dimension;
 
+mod list;
 mod values;
 
+pub(crate) use list::law_list;
 pub use values::{InvalidParameter, Value, Values};
 
 /// Which part of a contact a law is.

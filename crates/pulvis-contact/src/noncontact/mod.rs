@@ -2,7 +2,7 @@
 
 use pulvis_math::Real;
 
-use crate::catalogue::{InvalidParameter, Law, LawEntry, Values};
+use crate::catalogue::{InvalidParameter, Law, LawEntry, Values, law_list};
 
 mod jump_in;
 mod none;
@@ -60,30 +60,12 @@ fn linear_tail<R: Real>(adhesion_force: f64, slope: f64, overlap: R) -> (R, R) {
 
 macro_rules! noncontact_laws {
     ($($law:ident),* $(,)?) => {
-        /// Any non-contact law of the catalogue.
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        pub enum NonContact {
-            $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law),)*
+        law_list! {
+            /// Any non-contact law of the catalogue.
+            NonContact: $($law),*
         }
 
         impl NonContact {
-            /// The descriptions of all non-contact laws.
-            pub const ENTRIES: &'static [LawEntry] = &[$($law::ENTRY),*];
-
-            /// The law called `name` with the given parameter values; `None` where there is no such law.
-            pub fn build(name: &str, values: &Values) -> Option<Result<Self, InvalidParameter>> {
-                $(if name == $law::ENTRY.name {
-                    let complete = $law::ENTRY.complete(values);
-                    return Some(complete.and_then(|values| $law::from_values(&values)).map(Self::$law));
-                })*
-                Option::None
-            }
-
-            /// The law's description.
-            pub fn entry(&self) -> &'static LawEntry {
-                match self { $(Self::$law(_) => &<$law as Law>::ENTRY,)* }
-            }
-
             /// See [`NonContactLaw::respond`].
             #[inline(always)]
             pub fn respond<R: Real>(&self, overlap: R, touched: &mut R) -> NonContactResponse<R> {

@@ -3,7 +3,7 @@
 
 use pulvis_math::Real;
 
-use crate::catalogue::{InvalidParameter, Law, LawEntry, Values};
+use crate::catalogue::{InvalidParameter, Law, LawEntry, Values, law_list};
 use crate::pair::Pair;
 
 mod linear;
@@ -90,30 +90,12 @@ pub trait NormalLawVisitor {
 
 macro_rules! normal_laws {
     ($($law:ident),* $(,)?) => {
-        /// Any normal law of the catalogue.
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        pub enum Normal {
-            $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law),)*
+        law_list! {
+            /// Any normal law of the catalogue.
+            Normal: $($law),*
         }
 
         impl Normal {
-            /// The descriptions of all normal laws.
-            pub const ENTRIES: &'static [LawEntry] = &[$($law::ENTRY),*];
-
-            /// The law called `name` with the given parameter values; `None` where there is no such law.
-            pub fn build(name: &str, values: &Values) -> Option<Result<Self, InvalidParameter>> {
-                $(if name == $law::ENTRY.name {
-                    let complete = $law::ENTRY.complete(values);
-                    return Some(complete.and_then(|values| $law::from_values(&values)).map(Self::$law));
-                })*
-                None
-            }
-
-            /// The law's description.
-            pub fn entry(&self) -> &'static LawEntry {
-                match self { $(Self::$law(_) => &<$law as Law>::ENTRY,)* }
-            }
-
             /// Hands the law, with its own type, to the visitor.
             pub fn accept<V: NormalLawVisitor>(&self, visitor: V) -> V::Output {
                 match self { $(Self::$law(law) => visitor.visit(*law),)* }

@@ -3,7 +3,7 @@
 
 use pulvis_math::Real;
 
-use crate::catalogue::{InvalidParameter, Law, LawEntry, Values};
+use crate::catalogue::{InvalidParameter, Law, LawEntry, Values, law_list};
 use crate::normal::NormalResponse;
 use crate::pair::Pair;
 
@@ -30,30 +30,12 @@ pub trait ViscousLaw: Law {
 
 macro_rules! viscous_laws {
     ($($law:ident),* $(,)?) => {
-        /// Any viscous law of the catalogue.
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        pub enum Viscosity {
-            $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law),)*
+        law_list! {
+            /// Any viscous law of the catalogue.
+            Viscosity: $($law),*
         }
 
         impl Viscosity {
-            /// The descriptions of all viscous laws.
-            pub const ENTRIES: &'static [LawEntry] = &[$($law::ENTRY),*];
-
-            /// The law called `name` with the given parameter values; `None` where there is no such law.
-            pub fn build(name: &str, values: &Values) -> Option<Result<Self, InvalidParameter>> {
-                $(if name == $law::ENTRY.name {
-                    let complete = $law::ENTRY.complete(values);
-                    return Some(complete.and_then(|values| $law::from_values(&values)).map(Self::$law));
-                })*
-                Option::None
-            }
-
-            /// The law's description.
-            pub fn entry(&self) -> &'static LawEntry {
-                match self { $(Self::$law(_) => &<$law as Law>::ENTRY,)* }
-            }
-
             /// See [`ViscousLaw::coefficient`].
             #[inline(always)]
             pub fn coefficient<R: Real>(&self, pair: &Pair<R>, overlap: R, normal: &NormalResponse<R>) -> R {
