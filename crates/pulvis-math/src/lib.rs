@@ -15,10 +15,12 @@
 
 mod dimension;
 mod lanes;
+mod octet;
 mod real;
 mod vector;
 
 pub use dimension::Dimension;
 pub use lanes::{LaneMask, Lanes};
+pub use octet::{InstructionSet, Kernel, Octet, Quad, Row};
 pub use real::{Mask, Real};
 pub use vector::Vector3;

@@ -1,0 +1,213 @@
+//! Eight numbers in one 512-bit register.
+
+use std::arch::x86_64::*;
+use std::fmt;
+use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
+
+use super::avx2::Ymm;
+use super::operators::{lane_by_lane, octet_operators};
+use super::{Kernel, Octet};
+use crate::lanes::Lanes;
+use crate::real::{Mask, Real};
+
+/// The kernel compiled for AVX-512.
+///
+/// # Safety
+/// The processor must have the instructions.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,avx2")]
+pub(super) unsafe fn run<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Zmm>()
+}
+
+/// Eight numbers.
+#[derive(Clone, Copy)]
+pub(super) struct Zmm(__m512d);
+
+/// One bit a lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bits(__mmask8);
+
+// SAFETY of all blocks below: values of these types exist only within a kernel that `run` has been
+// called for, so the processor has the instructions.
+
+octet_operators!(Zmm, Bits);
+
+impl Zmm {
+    #[inline(always)]
+    fn sum(self, other: Self) -> Self {
+        unsafe { Self(_mm512_add_pd(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn difference(self, other: Self) -> Self {
+        unsafe { Self(_mm512_sub_pd(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn product(self, other: Self) -> Self {
+        unsafe { Self(_mm512_mul_pd(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn quotient(self, other: Self) -> Self {
+        unsafe { Self(_mm512_div_pd(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn opposite(self) -> Self {
+        unsafe { Self(_mm512_xor_pd(self.0, _mm512_set1_pd(-0.0))) }
+    }
+}
+
+impl Bits {
+    #[inline(always)]
+    fn both(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+    #[inline(always)]
+    fn either(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+    #[inline(always)]
+    fn neither(self) -> Self {
+        Self(!self.0)
+    }
+}
+
+impl Mask for Bits {
+    #[inline(always)]
+    fn splat(value: bool) -> Self {
+        Self(if value { 0xff } else { 0 })
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0 != 0
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self.0 == 0xff
+    }
+    #[inline(always)]
+    fn lane(self, lane: usize) -> bool {
+        self.0 & (1 << lane) != 0
+    }
+}
+
+impl Real for Zmm {
+    type Mask = Bits;
+    const LANES: usize = 8;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        unsafe { Self(_mm512_set1_pd(value)) }
+    }
+    lane_by_lane!();
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        unsafe { Self(_mm512_sqrt_pd(self.0)) }
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        unsafe { Self(_mm512_abs_pd(self.0)) }
+    }
+    // The instructions answer with the second operand for equal numbers and for NaN, as the trait says.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        unsafe { Self(_mm512_min_pd(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        unsafe { Self(_mm512_max_pd(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Bits {
+        unsafe { Bits(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> Bits {
+        unsafe { Bits(_mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn gt(self, other: Self) -> Bits {
+        unsafe { Bits(_mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn ge(self, other: Self) -> Bits {
+        unsafe { Bits(_mm512_cmp_pd_mask::<_CMP_GE_OQ>(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn select(mask: Bits, then: Self, otherwise: Self) -> Self {
+        unsafe { Self(_mm512_mask_blend_pd(mask.0, otherwise.0, then.0)) }
+    }
+}
+
+// Functions and not closures, which are not inlined by force.
+
+#[inline(always)]
+fn joined(low: Ymm, high: Ymm) -> __m512d {
+    unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low.0), high.0) }
+}
+
+#[inline(always)]
+fn low(pair: __m512d) -> Ymm {
+    unsafe { Ymm(_mm512_castpd512_pd256(pair)) }
+}
+
+#[inline(always)]
+fn high(pair: __m512d) -> Ymm {
+    unsafe { Ymm(_mm512_extractf64x4_pd::<1>(pair)) }
+}
+
+impl Octet for Zmm {
+    type Row = Ymm;
+
+    #[inline(always)]
+    fn load(source: &Lanes<8>) -> Self {
+        unsafe { Self(_mm512_load_pd(source.0.as_ptr())) }
+    }
+    #[inline(always)]
+    fn store(self, target: &mut Lanes<8>) {
+        unsafe { _mm512_store_pd(target.0.as_mut_ptr(), self.0) }
+    }
+
+    #[inline(always)]
+    fn columns(rows: [Ymm; 8]) -> [Self; 4] {
+        unsafe {
+            // Rows 0 and 4, 1 and 5, ... side by side: what follows acts on both halves alike.
+            let (a, b) = (joined(rows[0], rows[4]), joined(rows[1], rows[5]));
+            let (c, d) = (joined(rows[2], rows[6]), joined(rows[3], rows[7]));
+            let (xz_ab, yw_ab) = (_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
+            let (xz_cd, yw_cd) = (_mm512_unpacklo_pd(c, d), _mm512_unpackhi_pd(c, d));
+            let first = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
+            let second = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+            [
+                Self(_mm512_permutex2var_pd(xz_ab, first, xz_cd)),
+                Self(_mm512_permutex2var_pd(yw_ab, first, yw_cd)),
+                Self(_mm512_permutex2var_pd(xz_ab, second, xz_cd)),
+                Self(_mm512_permutex2var_pd(yw_ab, second, yw_cd)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    fn rows(columns: [Self; 4]) -> [Ymm; 8] {
+        unsafe {
+            let [x, y, z, w] = [columns[0].0, columns[1].0, columns[2].0, columns[3].0];
+            // Pairs x y of lanes 0, 2, 4, 6 and of lanes 1, 3, 5, 7; pairs z w alike.
+            let (xy_even, xy_odd) = (_mm512_unpacklo_pd(x, y), _mm512_unpackhi_pd(x, y));
+            let (zw_even, zw_odd) = (_mm512_unpacklo_pd(z, w), _mm512_unpackhi_pd(z, w));
+            let first = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
+            let second = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+            let rows_0_4 = _mm512_permutex2var_pd(xy_even, first, zw_even);
+            let rows_2_6 = _mm512_permutex2var_pd(xy_even, second, zw_even);
+            let rows_1_5 = _mm512_permutex2var_pd(xy_odd, first, zw_odd);
+            let rows_3_7 = _mm512_permutex2var_pd(xy_odd, second, zw_odd);
+            [
+                low(rows_0_4),
+                low(rows_1_5),
+                low(rows_2_6),
+                low(rows_3_7),
+                high(rows_0_4),
+                high(rows_1_5),
+                high(rows_2_6),
+                high(rows_3_7),
+            ]
+        }
+    }
+}

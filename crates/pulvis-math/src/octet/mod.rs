@@ -1,0 +1,278 @@
+//! Eight numbers in the registers of one instruction set, and the way from and to rows in memory.
+//!
+//! The loops of the engine are written once, as a [`Kernel`] over any [`Octet`], and compiled for
+//! every instruction set; which one runs is chosen while the program runs. The vector types cannot be
+//! named outside of this crate: code gets them as the type parameter of [`Kernel::run`], which
+//! [`InstructionSet::run`] calls only where the processor has the instructions.
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+#[cfg(target_arch = "x86_64")]
+mod operators;
+mod plain;
+
+use std::fmt;
+
+use crate::lanes::Lanes;
+use crate::real::Real;
+use crate::vector::Vector3;
+
+/// A vector and one more number: 32 bytes, which one load brings.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(32))]
+pub struct Quad {
+    /// The vector.
+    pub vector: Vector3,
+    /// The number beside it.
+    pub scalar: f64,
+}
+
+impl Quad {
+    /// A vector and a number.
+    #[inline(always)]
+    pub const fn new(vector: Vector3, scalar: f64) -> Self {
+        Self { vector, scalar }
+    }
+}
+
+/// The four numbers of a [`Quad`] in a register.
+pub trait Row: Copy {
+    /// The quad in memory.
+    fn load(quad: &Quad) -> Self;
+    /// Into memory.
+    fn store(self, quad: &mut Quad);
+    /// Four equal numbers.
+    fn splat(value: f64) -> Self;
+    /// Sum, number by number.
+    fn plus(self, other: Self) -> Self;
+    /// Difference, number by number.
+    fn minus(self, other: Self) -> Self;
+    /// Product, number by number.
+    fn times(self, other: Self) -> Self;
+    /// The vector of `self` with the scalar of `other`.
+    fn with_scalar_of(self, other: Self) -> Self;
+}
+
+/// Eight numbers at a time, one a lane.
+pub trait Octet: Real {
+    /// Four numbers at a time.
+    type Row: Row;
+    /// Eight numbers in memory.
+    fn load(source: &Lanes<8>) -> Self;
+    /// Into memory.
+    fn store(self, target: &mut Lanes<8>);
+    /// The columns of eight rows: x, y, z and the scalar of each.
+    fn columns(rows: [Self::Row; 8]) -> [Self; 4];
+    /// The rows of four columns.
+    fn rows(columns: [Self; 4]) -> [Self::Row; 8];
+}
+
+/// A loop that is compiled for every instruction set.
+pub trait Kernel {
+    /// What it answers.
+    type Output;
+    /// The loop. Implementations must be `#[inline(always)]`, and so must everything that they call
+    /// with values of type `R`: what is not inlined is compiled without the vector instructions.
+    fn run<R: Octet>(self) -> Self::Output;
+}
+
+/// The instructions that loops can be compiled for. All give the same bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Level {
+    Plain,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+/// An instruction set that this processor has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InstructionSet(Level);
+
+impl InstructionSet {
+    /// Everything that this processor can run, from the plainest to the widest.
+    pub fn available() -> Vec<Self> {
+        #[allow(unused_mut)] // elsewhere than on x86-64
+        let mut found = vec![Self(Level::Plain)];
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx2") {
+                found.push(Self(Level::Avx2));
+                let wide = is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("avx512bw");
+                if wide {
+                    found.push(Self(Level::Avx512));
+                }
+            }
+        }
+        found
+    }
+
+    /// The widest of them.
+    pub fn widest() -> Self {
+        Self::available().pop().unwrap_or(Self(Level::Plain))
+    }
+
+    /// Runs the kernel compiled for this instruction set.
+    #[inline]
+    pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        match self.0 {
+            Level::Plain => run_plain(kernel),
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: `available`, which alone makes this value, has found the instructions.
+            Level::Avx2 => unsafe { avx2::run(kernel) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: as above.
+            Level::Avx512 => unsafe { avx512::run(kernel) },
+        }
+    }
+}
+
+impl Default for InstructionSet {
+    fn default() -> Self {
+        Self::widest()
+    }
+}
+
+impl fmt::Display for InstructionSet {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(match self.0 {
+            Level::Plain => "plain",
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => "avx512",
+        })
+    }
+}
+
+#[inline(never)]
+fn run_plain<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Lanes<8>>()
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::real::Mask;
+
+    /// Every operation of the trait, on the numbers of two arrays.
+    struct Everything<'a> {
+        x: &'a Lanes<8>,
+        y: &'a Lanes<8>,
+    }
+
+    impl Kernel for Everything<'_> {
+        type Output = Vec<[u64; 8]>;
+        #[inline(always)]
+        fn run<R: Octet>(self) -> Vec<[u64; 8]> {
+            let (x, y) = (R::load(self.x), R::load(self.y));
+            let (one, zero) = (R::one(), R::zero());
+            let flag = |mask: R::Mask| R::select(mask, one, zero);
+            let columns = R::columns(R::rows([x, y, x + y, x * y]));
+            let mut sum = x;
+            sum += y;
+            sum -= one;
+            let answers = [
+                x + y,
+                x - y,
+                x * y,
+                x / y,
+                -x,
+                sum,
+                x.abs().sqrt(),
+                x.min(y),
+                x.max(y),
+                x.abs().powf(1.5),
+                flag(x.lt(y)),
+                flag(x.le(y)),
+                flag(x.gt(y)),
+                flag(x.ge(y)),
+                flag(!x.lt(y) & y.ge(zero) | x.gt(one)),
+                R::splat(x.sum_lanes()),
+                R::splat(f64::from(u8::from(x.lt(y).any())) + 2.0 * f64::from(u8::from(x.lt(y).all()))),
+                R::from_lanes(|lane| x.lane(7 - lane)),
+                R::from_lanes(|lane| if x.lt(y).lane(lane) { 1.0 } else { 0.0 }),
+                columns[0],
+                columns[1],
+                columns[2],
+                columns[3],
+            ];
+            let bits = |answer: R| {
+                let mut stored = Lanes::default();
+                answer.store(&mut stored);
+                stored.0.map(f64::to_bits)
+            };
+            answers.map(bits).to_vec()
+        }
+    }
+
+    /// Sums of rows.
+    struct RowSums<'a>(&'a [Quad; 2]);
+
+    impl Kernel for RowSums<'_> {
+        type Output = [Quad; 5];
+        #[inline(always)]
+        fn run<R: Octet>(self) -> [Quad; 5] {
+            let (one, other) = (R::Row::load(&self.0[0]), R::Row::load(&self.0[1]));
+            let answers = [
+                one.plus(other),
+                one.minus(other),
+                one.times(other),
+                one.with_scalar_of(other),
+                R::Row::splat(self.0[0].scalar),
+            ];
+            answers.map(|row| {
+                let mut quad = Quad::default();
+                row.store(&mut quad);
+                quad
+            })
+        }
+    }
+
+    fn any_number() -> impl Strategy<Value = f64> {
+        prop_oneof![8 => -10.0..10.0_f64, 1 => Just(0.0), 1 => Just(-0.0), 1 => Just(2.0), 1 => Just(f64::INFINITY)]
+    }
+
+    proptest! {
+        #[test]
+        fn every_instruction_set_gives_the_same_bits(
+            x in prop::array::uniform8(any_number()),
+            y in prop::array::uniform8(any_number()),
+        ) {
+            let (x, y) = (Lanes(x), Lanes(y));
+            let plain = run_plain(Everything { x: &x, y: &y });
+            let quads = [0, 1].map(|part| Quad::new(Vector3::new(x.0[part], y.0[part], x.0[part + 2]), y.0[part + 2]));
+            let rows = run_plain(RowSums(&quads));
+            for set in InstructionSet::available() {
+                let answers = set.run(Everything { x: &x, y: &y });
+                for (place, (answer, expected)) in answers.iter().zip(&plain).enumerate() {
+                    for lane in 0..8 {
+                        // A NaN (of infinity minus infinity) may have either sign.
+                        let both_nan = f64::from_bits(answer[lane]).is_nan() && f64::from_bits(expected[lane]).is_nan();
+                        prop_assert!(both_nan || answer[lane] == expected[lane], "{set}, operation {place}");
+                    }
+                }
+                let same = set.run(RowSums(&quads)).iter().zip(&rows).all(|(a, b)| {
+                    [(a.vector.x, b.vector.x), (a.vector.y, b.vector.y), (a.vector.z, b.vector.z), (a.scalar, b.scalar)]
+                        .iter().all(|(a, b)| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan())
+                });
+                prop_assert!(same, "{set}, rows");
+            }
+        }
+    }
+
+    #[test]
+    fn the_plainest_set_comes_first_and_the_widest_is_the_default() {
+        let sets = InstructionSet::available();
+        assert_eq!(sets[0].to_string(), "plain");
+        assert_eq!(sets.last(), Some(&InstructionSet::default()));
+    }
+}

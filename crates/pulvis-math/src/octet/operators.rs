@@ -1,0 +1,122 @@
+//! What both x86-64 types have in common.
+
+/// The operators of a vector type from its functions, and what goes through memory.
+macro_rules! octet_operators {
+    ($octet:ident, $mask:ident) => {
+        impl Add for $octet {
+            type Output = Self;
+            #[inline(always)]
+            fn add(self, other: Self) -> Self {
+                self.sum(other)
+            }
+        }
+        impl Sub for $octet {
+            type Output = Self;
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                self.difference(other)
+            }
+        }
+        impl Mul for $octet {
+            type Output = Self;
+            #[inline(always)]
+            fn mul(self, other: Self) -> Self {
+                self.product(other)
+            }
+        }
+        impl Div for $octet {
+            type Output = Self;
+            #[inline(always)]
+            fn div(self, other: Self) -> Self {
+                self.quotient(other)
+            }
+        }
+        impl Neg for $octet {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                self.opposite()
+            }
+        }
+        impl AddAssign for $octet {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+        impl SubAssign for $octet {
+            #[inline(always)]
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+        impl Default for $octet {
+            #[inline(always)]
+            fn default() -> Self {
+                Self::splat(0.0)
+            }
+        }
+        impl PartialEq for $octet {
+            fn eq(&self, other: &Self) -> bool {
+                self.to_array() == other.to_array()
+            }
+        }
+        impl fmt::Debug for $octet {
+            fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+                out.debug_tuple(stringify!($octet)).field(&self.to_array()).finish()
+            }
+        }
+        impl $octet {
+            #[inline(always)]
+            fn to_array(self) -> [f64; 8] {
+                let mut lanes = Lanes::default();
+                self.store(&mut lanes);
+                lanes.0
+            }
+        }
+        impl BitAnd for $mask {
+            type Output = Self;
+            #[inline(always)]
+            fn bitand(self, other: Self) -> Self {
+                self.both(other)
+            }
+        }
+        impl BitOr for $mask {
+            type Output = Self;
+            #[inline(always)]
+            fn bitor(self, other: Self) -> Self {
+                self.either(other)
+            }
+        }
+        impl Not for $mask {
+            type Output = Self;
+            #[inline(always)]
+            fn not(self) -> Self {
+                self.neither()
+            }
+        }
+    };
+}
+
+/// The functions of [`Real`](crate::Real) that go through memory.
+macro_rules! lane_by_lane {
+    () => {
+        #[inline(always)]
+        fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
+            let mut lanes = Lanes::default();
+            for (lane, slot) in lanes.0.iter_mut().enumerate() {
+                *slot = number(lane);
+            }
+            Self::load(&lanes)
+        }
+        #[inline(always)]
+        fn lane(self, lane: usize) -> f64 {
+            self.to_array()[lane]
+        }
+        fn powf(self, exponent: f64) -> Self {
+            Self::load(&Lanes(self.to_array().map(|number| number.powf(exponent))))
+        }
+    };
+}
+
+pub(super) use {lane_by_lane, octet_operators};
