@@ -26,13 +26,8 @@ pub(crate) fn run(name: &str, setup: Setup, run: &Run) -> Result<(), Failure> {
         simulation.set_skin(skin)?;
     }
     simulation.set_threads(run.threads)?;
-    let team = simulation.team().clone();
-    let times = team.run(|| {
-        for _ in 0..run.warm_up {
-            simulation.step()?;
-        }
-        timed_steps(&mut simulation, run.steps)
-    })?;
+    simulation.advance(run.warm_up)?;
+    let times = timed_steps(&mut simulation, run.steps)?;
     print(name, &mut simulation, run.steps, &times);
     match &run.write {
         Some(path) => write_table(&simulation, path),

@@ -31,6 +31,12 @@ pub(crate) struct Drag {
 }
 
 impl Background {
+    /// Whether there is any drag.
+    #[inline(always)]
+    pub(crate) fn has_drag(&self) -> bool {
+        self.drag != 0.0 || self.rotational_drag != 0.0
+    }
+
     /// The drag on a particle of the given velocity [m/s], spin [rad/s] and radius [m].
     #[inline(always)]
     pub(crate) fn drag_on(&self, velocity: Vector3, spin: Vector3, radius: f64) -> Drag {
@@ -47,7 +53,7 @@ impl Background {
         if self.gravity == Vector3::zero() {
             return 0.0;
         }
-        let parts = particles.mass.iter().zip(&particles.position);
-        parts.map(|(&mass, position)| -mass * self.gravity.dot(*position)).sum()
+        let parts = particles.mass.iter().zip(&particles.place);
+        parts.map(|(&mass, place)| -mass * self.gravity.dot(place.vector)).sum()
     }
 }

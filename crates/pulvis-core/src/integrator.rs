@@ -1,42 +1,119 @@
-//! Synchronised velocity-Verlet, and the sum of forces on each particle.
+//! Synchronised velocity-Verlet, one piece of rows at a time.
 
-use pulvis_math::Vector3;
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
-use rayon::slice::{ParallelSlice, ParallelSliceMut};
+use std::ops::Range;
+
+use pulvis_math::{Kernel, Octet, Quad, Row};
 
 use crate::background::Background;
-use crate::contacts::ContactTable;
+use crate::contacts::Load;
 use crate::particles::Particles;
-use crate::team::Team;
+use crate::shared::Shared;
 
-/// Rows that one thread works on at a time. Fixed, so that sums over pieces do not depend on the
-/// number of threads.
-const ROWS: usize = 256;
+/// The columns that the integrator works on; see [`Particles`] for what the quads hold.
+#[derive(Clone, Copy)]
+pub(crate) struct Columns<'a> {
+    place: Shared<'a, Quad>,
+    velocity: Shared<'a, Quad>,
+    spin: Shared<'a, Quad>,
+    velocity_predicted: Shared<'a, Quad>,
+    spin_predicted: Shared<'a, Quad>,
+    force: Shared<'a, Quad>,
+    torque: Shared<'a, Quad>,
+    mass: &'a [f64],
+    /// Where the particles were when the candidates were listed.
+    listed: &'a [Quad],
+}
 
-/// First half kick and drift over `time_step` [s]. Predicted velocities are those at the end of the
-/// step if forces stay as they are: what dashpots see, at the same instant as the positions. Answers
-/// with the largest square of the distance of any particle from its place in `listed` [m²], infinite
-/// where a position is no number.
-pub(crate) fn kick_and_drift(
-    particles: &mut Particles,
-    listed: &[Vector3],
+impl<'a> Columns<'a> {
+    /// The columns of the particles; `listed` has their places of when the candidates were listed.
+    pub(crate) fn of(particles: &'a mut Particles, listed: &'a [Quad]) -> Self {
+        Self {
+            place: Shared::new(&mut particles.place),
+            velocity: Shared::new(&mut particles.velocity),
+            spin: Shared::new(&mut particles.spin),
+            velocity_predicted: Shared::new(&mut particles.velocity_predicted),
+            spin_predicted: Shared::new(&mut particles.spin_predicted),
+            force: Shared::new(&mut particles.force),
+            torque: Shared::new(&mut particles.torque),
+            mass: &particles.mass,
+            listed,
+        }
+    }
+
+    /// What the contact loop reads of them.
+    pub(crate) fn moving(&self) -> crate::contacts::Moving<'a> {
+        crate::contacts::Moving {
+            place: self.place,
+            velocity_mid: self.velocity,
+            velocity: self.velocity_predicted,
+            spin_mid: self.spin,
+            spin: self.spin_predicted,
+        }
+    }
+}
+
+/// 1/I over 1/(m a²) of a solid sphere, I = 2/5 m a².
+const INVERSE_INERTIA: f64 = 2.5;
+
+/// First half kick and drift over a time step. Predicted velocities are those at the end of the step if
+/// forces stay as they are: what dashpots see, at the same instant as the positions.
+///
+/// Answers with the largest square of the distance of any particle from where it was listed [m²],
+/// infinite where a position is no number.
+pub(crate) struct KickAndDrift<'a> {
+    columns: Columns<'a>,
+    rows: Range<usize>,
     time_step: f64,
-    team: &Team,
-) -> f64 {
-    let half = 0.5 * time_step;
-    let piece = |columns: DriftColumns<'_>| -> f64 {
-        let (position, velocity, spin, velocity_predicted, spin_predicted, fixed) = columns;
-        let (force, torque, mass, radius, listed) = fixed;
+}
+
+impl<'a> KickAndDrift<'a> {
+    /// # Safety
+    /// Nobody else uses these rows until the kernel has run.
+    pub(crate) unsafe fn new(columns: Columns<'a>, rows: Range<usize>, time_step: f64) -> Self {
+        Self { columns, rows, time_step }
+    }
+}
+
+impl Kernel for KickAndDrift<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<R: Octet>(self) -> f64 {
+        let Self { columns, rows, time_step } = self;
+        let half = 0.5 * time_step;
+        let listed = &columns.listed[rows.clone()];
+        // SAFETY: as `new` demands.
+        let (place, velocity, spin, velocity_predicted, spin_predicted, force, torque) = unsafe {
+            (
+                columns.place.range_mut(rows.clone()),
+                columns.velocity.range_mut(rows.clone()),
+                columns.spin.range_mut(rows.clone()),
+                columns.velocity_predicted.range_mut(rows.clone()),
+                columns.spin_predicted.range_mut(rows.clone()),
+                columns.force.range_mut(rows.clone()),
+                columns.torque.range_mut(rows.clone()),
+            )
+        };
+        let step = R::Row::splat(time_step);
         let mut farthest = 0.0;
-        for row in 0..position.len() {
-            let kick = force[row] * (half / mass[row]);
-            let turn = torque[row] * (half / (0.4 * mass[row] * radius[row] * radius[row]));
-            velocity[row] += kick;
-            spin[row] += turn;
-            velocity_predicted[row] = velocity[row] + kick;
-            spin_predicted[row] = spin[row] + turn;
-            position[row] += velocity[row] * time_step;
-            let moved = (position[row] - listed[row]).norm_squared();
+        for row in 0..rows.len() {
+            let (inverse_mass, inverse_radius) = (velocity[row].scalar, spin[row].scalar);
+            let inverse_inertia = INVERSE_INERTIA * inverse_mass * inverse_radius * inverse_radius;
+            let kick = R::Row::load(&force[row]).times(R::Row::splat(half * inverse_mass));
+            let turn = R::Row::load(&torque[row]).times(R::Row::splat(half * inverse_inertia));
+            let (velocity_before, spin_before) = (R::Row::load(&velocity[row]), R::Row::load(&spin[row]));
+            let velocity_mid = velocity_before.plus(kick);
+            let spin_mid = spin_before.plus(turn);
+            velocity_mid.with_scalar_of(velocity_before).store(&mut velocity[row]);
+            spin_mid.with_scalar_of(spin_before).store(&mut spin[row]);
+            velocity_mid.plus(kick).with_scalar_of(spin_before).store(&mut velocity_predicted[row]);
+            spin_mid.plus(turn).with_scalar_of(spin_before).store(&mut spin_predicted[row]);
+            let before = R::Row::load(&place[row]);
+            let after = before.plus(velocity_mid.times(step)).with_scalar_of(before);
+            after.store(&mut place[row]);
+            let mut moved = Quad::default();
+            after.minus(R::Row::load(&listed[row])).store(&mut moved);
+            let moved = moved.vector.norm_squared();
             // Not `max`: a NaN must not be passed over.
             farthest = if moved <= farthest { farthest } else { moved };
             if farthest.is_nan() {
@@ -44,114 +121,75 @@ pub(crate) fn kick_and_drift(
             }
         }
         farthest
-    };
-    match team {
-        Team::Alone => piece((
-            &mut particles.position,
-            &mut particles.velocity,
-            &mut particles.spin,
-            &mut particles.velocity_predicted,
-            &mut particles.spin_predicted,
-            (&particles.force, &particles.torque, &particles.mass, &particles.radius, listed),
-        )),
-        Team::Pool(pool) => pool.install(|| {
-            let fixed = (
-                particles.force.par_chunks(ROWS),
-                particles.torque.par_chunks(ROWS),
-                particles.mass.par_chunks(ROWS),
-                particles.radius.par_chunks(ROWS),
-                listed.par_chunks(ROWS),
-            );
-            let columns = (
-                particles.position.par_chunks_mut(ROWS),
-                particles.velocity.par_chunks_mut(ROWS),
-                particles.spin.par_chunks_mut(ROWS),
-                particles.velocity_predicted.par_chunks_mut(ROWS),
-                particles.spin_predicted.par_chunks_mut(ROWS),
-                fixed.into_par_iter(),
-            );
-            columns.into_par_iter().map(piece).reduce(|| 0.0, f64::max)
-        }),
     }
 }
 
-type DriftColumns<'a> = (
-    &'a mut [Vector3],
-    &'a mut [Vector3],
-    &'a mut [Vector3],
-    &'a mut [Vector3],
-    &'a mut [Vector3],
-    (&'a [Vector3], &'a [Vector3], &'a [f64], &'a [f64], &'a [Vector3]),
-);
-
-/// Sums the forces of contacts and background on every particle, and does the second half kick over
-/// `half` a time step [s]. Answers with the power that the drag takes [W].
-pub(crate) fn collect_and_kick(
-    particles: &mut Particles,
-    contacts: &ContactTable,
-    background: &Background,
+/// Adds the background to the loads of the contacts, and does the second half kick over `half` a time
+/// step [s]. Answers with the power that the drag takes [W].
+pub(crate) struct Kick<'a> {
+    columns: Columns<'a>,
+    rows: Range<usize>,
+    loads: &'a [Load],
+    background: &'a Background,
     half: f64,
-    team: &Team,
-) -> f64 {
-    let piece = |number: usize, columns: KickColumns<'_>| -> f64 {
-        let (force, torque, velocity, spin, fixed) = columns;
-        let (velocity_predicted, spin_predicted, mass, radius) = fixed;
+}
+
+impl<'a> Kick<'a> {
+    /// # Safety
+    /// Nobody else uses these rows until the kernel has run.
+    pub(crate) unsafe fn new(
+        columns: Columns<'a>,
+        rows: Range<usize>,
+        loads: &'a [Load],
+        background: &'a Background,
+        half: f64,
+    ) -> Self {
+        Self { columns, rows, loads, background, half }
+    }
+}
+
+impl Kernel for Kick<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<R: Octet>(self) -> f64 {
+        let Self { columns, rows, loads, background, half } = self;
+        let mass = &columns.mass[rows.clone()];
+        // SAFETY: as `new` demands.
+        let (place, velocity, spin, velocity_predicted, spin_predicted, force, torque) = unsafe {
+            (
+                columns.place.range_mut(rows.clone()),
+                columns.velocity.range_mut(rows.clone()),
+                columns.spin.range_mut(rows.clone()),
+                columns.velocity_predicted.range_mut(rows.clone()),
+                columns.spin_predicted.range_mut(rows.clone()),
+                columns.force.range_mut(rows.clone()),
+                columns.torque.range_mut(rows.clone()),
+            )
+        };
+        let gravity = R::Row::load(&Quad::new(background.gravity, 0.0));
         let mut power = 0.0;
-        for place in 0..force.len() {
-            let (push, turn) = contacts.on_particle(number * ROWS + place);
-            let drag = background.drag_on(velocity_predicted[place], spin_predicted[place], radius[place]);
-            power += drag.power;
-            force[place] = push + background.gravity * mass[place] - drag.force;
-            torque[place] = turn - drag.torque;
-            velocity[place] += force[place] * (half / mass[place]);
-            let inertia = 0.4 * mass[place] * radius[place] * radius[place];
-            spin[place] += torque[place] * (half / inertia);
+        for row in 0..rows.len() {
+            let (inverse_mass, inverse_radius) = (velocity[row].scalar, spin[row].scalar);
+            let inverse_inertia = INVERSE_INERTIA * inverse_mass * inverse_radius * inverse_radius;
+            let weight = gravity.times(R::Row::splat(mass[row]));
+            let mut push = R::Row::load(&loads[row].force).plus(weight);
+            let mut turn = R::Row::load(&loads[row].torque);
+            if background.has_drag() {
+                let (velocity, spin) = (velocity_predicted[row].vector, spin_predicted[row].vector);
+                let drag = background.drag_on(velocity, spin, place[row].scalar);
+                power += drag.power;
+                push = push.minus(R::Row::load(&Quad::new(drag.force, 0.0)));
+                turn = turn.minus(R::Row::load(&Quad::new(drag.torque, 0.0)));
+            }
+            push.store(&mut force[row]);
+            turn.store(&mut torque[row]);
+            let (velocity_mid, spin_mid) = (R::Row::load(&velocity[row]), R::Row::load(&spin[row]));
+            let kicked = velocity_mid.plus(push.times(R::Row::splat(half * inverse_mass)));
+            let turned = spin_mid.plus(turn.times(R::Row::splat(half * inverse_inertia)));
+            kicked.with_scalar_of(velocity_mid).store(&mut velocity[row]);
+            turned.with_scalar_of(spin_mid).store(&mut spin[row]);
         }
         power
-    };
-    let pieces = particles.len().div_ceil(ROWS);
-    if let (Team::Pool(pool), true) = (team, pieces > 1) {
-        let powers: Vec<f64> = pool.install(|| {
-            let fixed = (
-                particles.velocity_predicted.par_chunks(ROWS),
-                particles.spin_predicted.par_chunks(ROWS),
-                particles.mass.par_chunks(ROWS),
-                particles.radius.par_chunks(ROWS),
-            );
-            let columns = (
-                particles.force.par_chunks_mut(ROWS),
-                particles.torque.par_chunks_mut(ROWS),
-                particles.velocity.par_chunks_mut(ROWS),
-                particles.spin.par_chunks_mut(ROWS),
-                fixed.into_par_iter(),
-            );
-            let numbered = ((0..pieces).into_par_iter(), columns.into_par_iter());
-            numbered.into_par_iter().map(|(number, columns)| piece(number, columns)).collect()
-        });
-        return powers.iter().sum();
     }
-    let fixed = particles
-        .velocity_predicted
-        .chunks(ROWS)
-        .zip(particles.spin_predicted.chunks(ROWS))
-        .zip(particles.mass.chunks(ROWS).zip(particles.radius.chunks(ROWS)));
-    let columns = particles
-        .force
-        .chunks_mut(ROWS)
-        .zip(particles.torque.chunks_mut(ROWS))
-        .zip(particles.velocity.chunks_mut(ROWS).zip(particles.spin.chunks_mut(ROWS)))
-        .zip(fixed);
-    let mut power = 0.0;
-    for (number, (((force, torque), (velocity, spin)), ((v, w), (mass, radius)))) in columns.enumerate() {
-        power += piece(number, (force, torque, velocity, spin, (v, w, mass, radius)));
-    }
-    power
 }
-
-type KickColumns<'a> = (
-    &'a mut [Vector3],
-    &'a mut [Vector3],
-    &'a mut [Vector3],
-    &'a mut [Vector3],
-    (&'a [Vector3], &'a [Vector3], &'a [f64], &'a [f64]),
-);

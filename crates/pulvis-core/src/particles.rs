@@ -1,6 +1,8 @@
 //! The particles, as columns grouped by who must know them.
 
-use pulvis_math::Vector3;
+use std::ops::Index;
+
+use pulvis_math::{Quad, Vector3};
 
 /// A particle's name: stable for its whole life, what files and interfaces show. Rows move when the
 /// neighbour search puts them into cell order; ids do not.
@@ -27,6 +29,9 @@ pub struct Particle {
 }
 
 /// All particles. Every column has one entry a row; rows are kept in cell order.
+///
+/// What the loops read stands in quads, a vector and a number that is needed with it: one load brings
+/// both.
 #[derive(Clone, Debug, Default)]
 pub struct Particles {
     // Fixed.
@@ -35,83 +40,64 @@ pub struct Particles {
     pub(crate) radius: Vec<f64>,
     pub(crate) mass: Vec<f64>,
     // Moving. Between the two kicks of a step, velocity and spin are those of mid-step.
-    pub(crate) position: Vec<Vector3>,
-    pub(crate) velocity: Vec<Vector3>,
-    pub(crate) spin: Vec<Vector3>,
+    /// Centre [m] and radius [m].
+    pub(crate) place: Vec<Quad>,
+    /// Velocity [m/s] and 1/mass [1/kg].
+    pub(crate) velocity: Vec<Quad>,
+    /// Spin [rad/s] and 1/radius [1/m].
+    pub(crate) spin: Vec<Quad>,
     // Result of the contact loop.
-    pub(crate) force: Vec<Vector3>,
-    pub(crate) torque: Vec<Vector3>,
+    /// Force [N].
+    pub(crate) force: Vec<Quad>,
+    /// Torque [N m].
+    pub(crate) torque: Vec<Quad>,
     // Local to a step: what velocity and spin will be at its end if forces stay as they were.
-    pub(crate) velocity_predicted: Vec<Vector3>,
-    pub(crate) spin_predicted: Vec<Vector3>,
+    /// Velocity [m/s] and 1/radius [1/m].
+    pub(crate) velocity_predicted: Vec<Quad>,
+    /// Spin [rad/s] and 1/radius [1/m].
+    pub(crate) spin_predicted: Vec<Quad>,
 }
 
-/// Applies `$action` to every column.
-macro_rules! for_each_column {
-    ($particles:expr, $column:ident => $action:expr) => {{
-        {
-            let $column = &mut $particles.id;
-            $action;
-        }
-        {
-            let $column = &mut $particles.material;
-            $action;
-        }
-        {
-            let $column = &mut $particles.radius;
-            $action;
-        }
-        {
-            let $column = &mut $particles.mass;
-            $action;
-        }
-        {
-            let $column = &mut $particles.position;
-            $action;
-        }
-        {
-            let $column = &mut $particles.velocity;
-            $action;
-        }
-        {
-            let $column = &mut $particles.spin;
-            $action;
-        }
-        {
-            let $column = &mut $particles.force;
-            $action;
-        }
-        {
-            let $column = &mut $particles.torque;
-            $action;
-        }
-        {
-            let $column = &mut $particles.velocity_predicted;
-            $action;
-        }
-        {
-            let $column = &mut $particles.spin_predicted;
-            $action;
-        }
-    }};
+/// One vector of every particle.
+#[derive(Clone, Copy, Debug)]
+pub struct Vectors<'a>(&'a [Quad]);
+
+impl<'a> Vectors<'a> {
+    /// All of them, row by row.
+    pub fn iter(self) -> impl ExactSizeIterator<Item = Vector3> + use<'a> {
+        self.0.iter().map(|quad| quad.vector)
+    }
+}
+
+impl Index<usize> for Vectors<'_> {
+    type Output = Vector3;
+    #[inline(always)]
+    fn index(&self, row: usize) -> &Vector3 {
+        &self.0[row].vector
+    }
+}
+
+/// The column in a new order: row k becomes what was row `order[k]`.
+fn reorder<T: Copy>(column: &mut Vec<T>, order: &[u32]) {
+    *column = order.iter().map(|&row| column[row as usize]).collect();
 }
 
 impl Particles {
     /// Particles with ids 0, 1, 2, ... in the given order.
     pub fn new(particles: &[Particle]) -> Self {
-        let column = |value: fn(&Particle) -> Vector3| particles.iter().map(value).collect::<Vec<_>>();
+        let column = |value: fn(&Particle) -> Quad| particles.iter().map(value).collect::<Vec<_>>();
         Self {
             id: (0..particles.len() as ParticleId).collect(),
             material: particles.iter().map(|particle| particle.material).collect(),
             radius: particles.iter().map(|particle| particle.radius).collect(),
             mass: particles.iter().map(|particle| particle.mass).collect(),
-            position: column(|particle| particle.position),
-            velocity: column(|particle| particle.velocity),
-            spin: column(|particle| particle.spin),
-            force: vec![Vector3::zero(); particles.len()],
-            torque: vec![Vector3::zero(); particles.len()],
-            velocity_predicted: column(|particle| particle.velocity),
-            spin_predicted: column(|particle| particle.spin),
+            place: column(|particle| Quad::new(particle.position, particle.radius)),
+            velocity: column(|particle| Quad::new(particle.velocity, 1.0 / particle.mass)),
+            spin: column(|particle| Quad::new(particle.spin, 1.0 / particle.radius)),
+            force: vec![Quad::default(); particles.len()],
+            torque: vec![Quad::default(); particles.len()],
+            velocity_predicted: column(|particle| Quad::new(particle.velocity, 1.0 / particle.radius)),
+            spin_predicted: column(|particle| Quad::new(particle.spin, 1.0 / particle.radius)),
         }
     }
 
@@ -146,28 +132,28 @@ impl Particles {
     }
 
     /// Centres [m].
-    pub fn positions(&self) -> &[Vector3] {
-        &self.position
+    pub fn positions(&self) -> Vectors<'_> {
+        Vectors(&self.place)
     }
 
     /// Velocities [m/s].
-    pub fn velocities(&self) -> &[Vector3] {
-        &self.velocity
+    pub fn velocities(&self) -> Vectors<'_> {
+        Vectors(&self.velocity)
     }
 
     /// Angular velocities [rad/s].
-    pub fn spins(&self) -> &[Vector3] {
-        &self.spin
+    pub fn spins(&self) -> Vectors<'_> {
+        Vectors(&self.spin)
     }
 
     /// Total forces [N].
-    pub fn forces(&self) -> &[Vector3] {
-        &self.force
+    pub fn forces(&self) -> Vectors<'_> {
+        Vectors(&self.force)
     }
 
     /// Total torques [N m].
-    pub fn torques(&self) -> &[Vector3] {
-        &self.torque
+    pub fn torques(&self) -> Vectors<'_> {
+        Vectors(&self.torque)
     }
 
     /// The rows in the order of their ids: what files and interfaces should iterate over.
@@ -185,21 +171,30 @@ impl Particles {
 
     /// Puts the rows into a new order: row k becomes what was row `order[k]`.
     pub(crate) fn reorder(&mut self, order: &[u32]) {
-        for_each_column!(self, column => {
-            let moved: Vec<_> = order.iter().map(|&row| column[row as usize]).collect();
-            *column = moved;
-        });
+        reorder(&mut self.id, order);
+        reorder(&mut self.material, order);
+        reorder(&mut self.radius, order);
+        reorder(&mut self.mass, order);
+        for column in [
+            &mut self.place,
+            &mut self.velocity,
+            &mut self.spin,
+            &mut self.force,
+            &mut self.torque,
+            &mut self.velocity_predicted,
+            &mut self.spin_predicted,
+        ] {
+            reorder(column, order);
+        }
     }
 
-    /// Memory of all columns [byte].
-    pub(crate) fn memory_size(&self) -> usize {
-        // Seven vectors, radius, mass, id and material; the skin keeps one more vector.
-        self.len() * (8 * size_of::<Vector3>() + 2 * size_of::<f64>() + 4 + 2)
-    }
+    /// Memory of a particle's row in all columns [byte].
+    pub(crate) const BYTES: usize =
+        7 * size_of::<Quad>() + 2 * size_of::<f64>() + size_of::<ParticleId>() + size_of::<MaterialIndex>();
 
     /// Sum of all momenta [kg m/s].
     pub fn momentum(&self) -> Vector3 {
-        let parts = self.mass.iter().zip(&self.velocity).map(|(&mass, &velocity)| velocity * mass);
+        let parts = self.mass.iter().zip(&self.velocity).map(|(&mass, velocity)| velocity.vector * mass);
         parts.fold(Vector3::zero(), |sum, part| sum + part)
     }
 

@@ -1,55 +1,276 @@
 //! Who does the work: this thread, or several.
 
-use std::sync::Arc;
+use std::any::Any;
+use std::cell::UnsafeCell;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{JoinHandle, Thread};
 
-use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
+use crate::shared::Shared;
 
-/// One thread, or a pool of them. The results do not depend on how many there are: work is cut into
-/// the same pieces for any number of threads, and sums are taken piece by piece in a fixed order.
+/// One thread, or several that stay ready between the regions of a step.
+///
+/// A step of a small system lasts some ten microseconds: threads that sleep between regions would be
+/// woken for as long as they work. These spin, and sleep only when nothing has come for a while.
+/// The results do not depend on how many there are: work is cut into the same pieces for any number of
+/// threads, and sums are taken piece by piece in a fixed order.
 #[derive(Clone, Debug, Default)]
-pub enum Team {
-    /// This thread alone.
-    #[default]
-    Alone,
-    /// A pool of threads.
-    Pool(Arc<rayon::ThreadPool>),
+pub struct Team {
+    crew: Option<Arc<Crew>>,
 }
 
 impl Team {
-    /// A team of `threads` threads.
+    /// A team of `threads` threads, this one among them.
     ///
     /// # Errors
     /// The system cannot start that many threads.
-    pub fn of(threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
+    pub fn of(threads: usize) -> std::io::Result<Self> {
         if threads <= 1 {
-            return Ok(Self::Alone);
+            return Ok(Self::default());
         }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-        Ok(Self::Pool(Arc::new(pool)))
+        Ok(Self { crew: Some(Arc::new(Crew::start(threads)?)) })
     }
 
     /// Number of threads.
     pub fn threads(&self) -> usize {
-        match self {
-            Self::Alone => 1,
-            Self::Pool(pool) => pool.current_num_threads(),
+        self.crew.as_ref().map_or(1, |crew| crew.helpers.len() + 1)
+    }
+
+    /// Does `work` for every number below `count`, each once, in an order that depends on the threads.
+    /// Every thread begins with numbers of its own, the same in every region, so that what it has in its
+    /// caches is of use again; then it helps the others.
+    pub(crate) fn for_each_number(&self, count: usize, work: impl Fn(usize) + Sync) {
+        let Some(crew) = &self.crew else {
+            (0..count).for_each(work);
+            return;
+        };
+        let threads = self.threads();
+        let guard = crew.lead();
+        for (member, cursor) in crew.shared.cursors.iter().enumerate() {
+            cursor.0.store(count * member / threads, Ordering::Relaxed);
+        }
+        let cursors = &crew.shared.cursors;
+        crew.region(&guard, &|member| {
+            for turn in 0..threads {
+                let owner = (member + turn) % threads;
+                let end = count * (owner + 1) / threads;
+                loop {
+                    let number = cursors[owner].0.fetch_add(1, Ordering::Relaxed);
+                    if number >= end {
+                        break;
+                    }
+                    work(number);
+                }
+            }
+        });
+    }
+
+    /// Does `work` on every item, with its place.
+    pub(crate) fn for_each<T: Send>(&self, items: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
+        let count = items.len();
+        let items = Shared::new(items);
+        // SAFETY: every number is handed out once.
+        self.for_each_number(count, |number| work(number, unsafe { items.get_mut(number) }));
+    }
+}
+
+type Job<'a> = dyn Fn(usize) + Sync + 'a;
+
+/// Rounds of waiting before a thread lets others have its processor, and before it sleeps: some
+/// microseconds, and some ten milliseconds.
+const SPINS: u32 = 4_000;
+const YIELDS: u32 = 20_000;
+
+/// A counter with a cache line of its own.
+#[derive(Debug, Default)]
+#[repr(align(128))]
+struct Cursor(AtomicUsize);
+
+/// What the leader and its helpers share.
+#[derive(Default)]
+struct Board {
+    /// Counts the regions; a helper works when it has changed.
+    region: AtomicU64,
+    /// The work of the present region; valid from the change of `region` until `busy` is zero.
+    job: UnsafeCell<Option<*const Job<'static>>>,
+    /// Helpers that have not finished.
+    busy: AtomicUsize,
+    stop: AtomicBool,
+    sleeping: Vec<AtomicBool>,
+    cursors: Vec<Cursor>,
+    panic: Mutex<Option<Box<dyn Any + Send>>>,
+}
+
+// SAFETY: `job` is written by the leader only, which waits for `busy` to be zero; helpers read it only
+// between the change of `region` (release, acquire) and their own decrement of `busy`.
+unsafe impl Sync for Board {}
+// SAFETY: the pointer in `job` is to something that is `Sync`.
+unsafe impl Send for Board {}
+
+impl std::fmt::Debug for Board {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.debug_struct("Board").finish_non_exhaustive()
+    }
+}
+
+#[derive(Debug)]
+struct Crew {
+    shared: Arc<Board>,
+    helpers: Vec<JoinHandle<()>>,
+    /// Held by the thread that leads a region: systems may share a team.
+    leader: Mutex<()>,
+}
+
+impl Crew {
+    fn start(threads: usize) -> std::io::Result<Self> {
+        let mut board = Board::default();
+        board.sleeping.resize_with(threads, AtomicBool::default);
+        board.cursors.resize_with(threads, Cursor::default);
+        let mut crew = Self { shared: Arc::new(board), helpers: Vec::new(), leader: Mutex::new(()) };
+        for member in 1..threads {
+            let board = Arc::clone(&crew.shared);
+            let name = format!("pulvis-{member}");
+            // Should one fail, dropping the crew stops those that have started.
+            crew.helpers.push(std::thread::Builder::new().name(name).spawn(move || help(&board, member))?);
+        }
+        Ok(crew)
+    }
+
+    fn lead(&self) -> MutexGuard<'_, ()> {
+        self.leader.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Calls `job` with the number of every member, on that member's thread, and waits for all.
+    fn region(&self, _lead: &MutexGuard<'_, ()>, job: &Job<'_>) {
+        let board = &*self.shared;
+        // SAFETY: only the lifetime changes; no helper uses the job after `busy` has become zero, for
+        // which this function waits, also if its own share panics.
+        let job_for_helpers: *const Job<'static> =
+            unsafe { std::mem::transmute::<*const Job<'_>, *const Job<'static>>(&raw const *job) };
+        // SAFETY: all helpers wait, see `Sync for Board`.
+        unsafe { *board.job.get() = Some(job_for_helpers) };
+        board.busy.store(self.helpers.len(), Ordering::Relaxed);
+        board.region.fetch_add(1, Ordering::SeqCst);
+        for (helper, sleeping) in self.helpers.iter().zip(&board.sleeping[1..]) {
+            if sleeping.load(Ordering::SeqCst) {
+                helper.thread().unpark();
+            }
+        }
+        let own = catch_unwind(AssertUnwindSafe(|| job(0)));
+        let mut rounds = 0;
+        while board.busy.load(Ordering::Acquire) != 0 {
+            wait(&mut rounds);
+        }
+        if let Err(panic) = own {
+            resume_unwind(panic);
+        }
+        let panic = board.panic.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some(panic) = panic {
+            resume_unwind(panic);
+        }
+    }
+}
+
+impl Drop for Crew {
+    fn drop(&mut self) {
+        self.shared.stop.store(true, Ordering::SeqCst);
+        self.shared.region.fetch_add(1, Ordering::SeqCst);
+        for helper in self.helpers.drain(..) {
+            Thread::unpark(helper.thread());
+            // A helper catches what its work panics with; there is nothing to learn here.
+            let _ = helper.join();
+        }
+    }
+}
+
+/// One round of waiting.
+fn wait(rounds: &mut u32) {
+    *rounds += 1;
+    if *rounds < SPINS {
+        std::hint::spin_loop();
+    } else {
+        std::thread::yield_now();
+    }
+}
+
+/// The life of a helper.
+fn help(board: &Board, member: usize) {
+    let mut seen = 0;
+    loop {
+        let mut rounds = 0;
+        while board.region.load(Ordering::Acquire) == seen {
+            if rounds < SPINS + YIELDS {
+                wait(&mut rounds);
+                continue;
+            }
+            board.sleeping[member].store(true, Ordering::SeqCst);
+            // Looked at once more: the leader may have begun a region without seeing the flag.
+            if board.region.load(Ordering::SeqCst) == seen {
+                std::thread::park();
+            }
+            board.sleeping[member].store(false, Ordering::SeqCst);
+        }
+        seen += 1;
+        if board.stop.load(Ordering::SeqCst) {
+            return;
+        }
+        // SAFETY: the region has begun and this helper has not finished, see `Sync for Board`; the leader
+        // keeps the job alive until then.
+        let outcome = catch_unwind(AssertUnwindSafe(|| unsafe {
+            if let Some(job) = *board.job.get() {
+                (*job)(member);
+            }
+        }));
+        if let Err(panic) = outcome {
+            *board.panic.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic);
+        }
+        board.busy.fetch_sub(1, Ordering::Release);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+    use super::*;
+
+    #[test]
+    fn every_item_is_worked_on_once_by_teams_of_any_size() {
+        for threads in [1, 2, 3, 8] {
+            let team = Team::of(threads).unwrap();
+            assert_eq!(team.threads(), threads);
+            let mut items = vec![0_usize; 1000];
+            for round in 0..200 {
+                team.for_each(&mut items, |place, item| *item += place + round);
+            }
+            let expected = |place: usize| 200 * place + 199 * 100;
+            assert!(items.iter().enumerate().all(|(place, &item)| item == expected(place)), "{threads}");
         }
     }
 
-    /// Runs `work` as a member of the team: many steps done within one call spare each step the way
-    /// into the pool.
-    pub fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
-        match self {
-            Self::Alone => work(),
-            Self::Pool(pool) => pool.install(work),
+    #[test]
+    fn a_team_that_slept_wakes_up() {
+        let team = Team::of(2).unwrap();
+        for _ in 0..3 {
+            std::thread::sleep(std::time::Duration::from_millis(60));
+            let mut items = [0; 16];
+            team.for_each(&mut items, |_, item| *item += 1);
+            assert_eq!(items, [1; 16]);
         }
     }
 
-    /// Does `work` on every item.
-    pub(crate) fn for_each<T: Send>(&self, items: &mut [T], work: impl Fn(&mut T) + Send + Sync) {
-        match self {
-            Self::Alone => items.iter_mut().for_each(work),
-            Self::Pool(pool) => pool.install(|| items.par_iter_mut().for_each(work)),
+    #[test]
+    fn a_panic_of_any_member_reaches_the_leader() {
+        let team = Team::of(3).unwrap();
+        for bad in [0, 50, 99] {
+            let outcome = catch_unwind(AssertUnwindSafe(|| {
+                team.for_each_number(100, |number| assert!(number != bad, "number {number}"));
+            }));
+            assert!(outcome.is_err());
         }
+        let mut items = [0; 9];
+        team.for_each(&mut items, |_, item| *item = 1);
+        assert_eq!(items, [1; 9]);
     }
 }

@@ -1,7 +1,7 @@
 //! Candidate contacts of one contact model, in blocks of eight.
 
 use pulvis_contact::ContactModel;
-use pulvis_math::{Mask, Real, Vector3};
+use pulvis_math::{Lanes, Mask, Octet};
 
 use super::kernel::ContactTotals;
 use super::layout::{Lane, Layout};
@@ -18,14 +18,8 @@ pub(crate) enum Partner {
     Wall(usize),
 }
 
-/// Blocks in a group at the most: a group is what one thread works on at a time.
-pub(crate) const BLOCKS: usize = 64;
-
-/// Contacts in a group at the most.
-pub(crate) const CAPACITY: usize = BLOCKS * WIDTH;
-
-/// Up to [`CAPACITY`] candidate contacts that one model rules: particle pairs of two materials, or
-/// particles of one material near one wall.
+/// Candidate contacts of one piece that one model rules: particle pairs of two materials, or particles
+/// of one material near one wall.
 #[derive(Clone, Debug)]
 pub(crate) struct ContactGroup {
     pub(crate) model: ContactModel,
@@ -35,6 +29,10 @@ pub(crate) struct ContactGroup {
     pub(crate) first: Vec<[u32; WIDTH]>,
     /// Rows of the second bodies; empty for walls.
     pub(crate) second: Vec<[u32; WIDTH]>,
+    /// Where the loads on the first bodies are summed: places among those of the piece.
+    pub(crate) first_sum: Vec<[u32; WIDTH]>,
+    /// The same for the second bodies; empty for walls.
+    pub(crate) second_sum: Vec<[u32; WIDTH]>,
     /// Memory: for each block, one value of eight lanes a column.
     pub(crate) memory: Vec<Lane>,
     /// Whether any contact of the block acted when it was last looked at. Blocks that did not, and
@@ -43,11 +41,20 @@ pub(crate) struct ContactGroup {
     /// The smallest gap that any contact of the block had to its reach when it was listed [m]: until
     /// bodies have moved that far, the block needs no look.
     pub(crate) gap: Vec<f64>,
-    /// Forces of live blocks: for each block, one value of eight lanes a component.
-    pub(crate) forces: Vec<Lane>,
     /// What the last sweep added up to.
     pub(crate) totals: ContactTotals,
     count: usize,
+}
+
+/// A candidate contact as it is listed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Candidate {
+    /// Rows of the bodies; for walls twice the same.
+    pub(crate) rows: [u32; 2],
+    /// Where their loads are summed.
+    pub(crate) sums: [u32; 2],
+    /// Gap to the reach [m].
+    pub(crate) gap: f64,
 }
 
 impl ContactGroup {
@@ -59,42 +66,14 @@ impl ContactGroup {
             partner,
             first: Vec::new(),
             second: Vec::new(),
+            first_sum: Vec::new(),
+            second_sum: Vec::new(),
             memory: Vec::new(),
             live: Vec::new(),
             gap: Vec::new(),
-            forces: Vec::new(),
             totals: ContactTotals::default(),
             count: 0,
         }
-    }
-
-    /// Components of force and torque of each contact: the force on the first body, and with friction
-    /// the torques on both.
-    #[inline(always)]
-    pub(crate) fn components(&self) -> usize {
-        if self.model.composition.has_friction() { 9 } else { 3 }
-    }
-
-    /// Whether no further contact fits in.
-    pub(crate) fn is_full(&self) -> bool {
-        self.count == CAPACITY
-    }
-
-    /// Force and torque of a contact on its first body, or on its second one; `None` for a contact in
-    /// a block that does not act.
-    #[inline(always)]
-    pub(crate) fn force_on(&self, place: usize, second: bool) -> Option<(Vector3, Vector3)> {
-        let (block, lane) = (place / WIDTH, place % WIDTH);
-        if !self.live[block] {
-            return None;
-        }
-        let components = self.components();
-        let forces = &self.forces[block * components..(block + 1) * components];
-        let vector = |first: usize| {
-            Vector3::new(forces[first].0[lane], forces[first + 1].0[lane], forces[first + 2].0[lane])
-        };
-        let torque = |first: usize| if components == 9 { vector(first) } else { Vector3::zero() };
-        Some(if second { (-vector(0), torque(6)) } else { (vector(0), torque(3)) })
     }
 
     /// Number of candidate contacts.
@@ -102,35 +81,38 @@ impl ContactGroup {
         self.count
     }
 
-    /// Memory of the candidates, of what they remember and of their forces [byte].
+    /// Memory of the candidates and of what they remember [byte].
     pub(crate) fn memory_size(&self) -> usize {
-        size_of_val(&self.first[..])
-            + size_of_val(&self.second[..])
+        let rows = [&self.first, &self.second, &self.first_sum, &self.second_sum];
+        rows.map(|column| size_of_val(&column[..])).iter().sum::<usize>()
             + size_of_val(&self.memory[..])
-            + size_of_val(&self.forces[..])
             + size_of_val(&self.gap[..])
             + self.live.len()
     }
 
-    /// Adds a candidate contact with its gap [m], and with its memory where it has any.
-    pub(crate) fn push(&mut self, first: u32, second: u32, gap: f64, remembered: Option<&[f64]>) {
+    /// Adds a candidate contact, with its memory where it has any.
+    pub(crate) fn push(&mut self, candidate: &Candidate, remembered: Option<&[f64]>) {
         let lane = self.count % WIDTH;
+        let [first, second] = candidate.rows;
+        let [first_sum, second_sum] = candidate.sums;
         if lane == 0 {
             self.first.push([first; WIDTH]);
+            self.first_sum.push([first_sum; WIDTH]);
             if self.partner == Partner::Particle {
                 self.second.push([second; WIDTH]);
+                self.second_sum.push([second_sum; WIDTH]);
             }
             self.memory.resize(self.memory.len() + self.layout.columns(), Lane::default());
-            let components = self.components();
-            self.forces.resize(self.forces.len() + components, Lane::default());
             self.live.push(false);
-            self.gap.push(gap);
+            self.gap.push(candidate.gap);
         }
         let block = self.first.len() - 1;
-        self.gap[block] = self.gap[block].min(gap);
+        self.gap[block] = self.gap[block].min(candidate.gap);
         self.first[block][lane] = first;
+        self.first_sum[block][lane] = first_sum;
         if self.partner == Partner::Particle {
             self.second[block][lane] = second;
+            self.second_sum[block][lane] = second_sum;
         }
         if let Some(record) = remembered {
             let columns = self.layout.columns();
@@ -140,6 +122,12 @@ impl ContactGroup {
             self.live[block] = true;
         }
         self.count += 1;
+    }
+
+    /// The columns of memory of a block.
+    pub(crate) fn columns(&self, block: usize) -> &[Lane] {
+        let columns = self.layout.columns();
+        &self.memory[block * columns..(block + 1) * columns]
     }
 
     /// How many contacts the block holds.
@@ -153,7 +141,7 @@ impl ContactGroup {
         let columns = self.layout.columns();
         let mut record = vec![0.0; columns];
         for block in (0..self.first.len()).filter(|&block| self.live[block]) {
-            let memory = &self.memory[block * columns..(block + 1) * columns];
+            let memory = self.columns(block);
             for lane in 0..self.filled(block) {
                 for (slot, column) in record.iter_mut().zip(memory) {
                     *slot = column.0[lane];
@@ -168,9 +156,10 @@ impl ContactGroup {
 
 /// True in the first `filled` lanes.
 #[inline(always)]
-pub(crate) fn filled_lanes(filled: usize) -> <Lane as Real>::Mask {
+pub(crate) fn filled_lanes<R: Octet>(filled: usize) -> R::Mask {
     if filled == WIDTH {
         return Mask::splat(true);
     }
-    Lane::from_lanes(|lane| lane as f64).lt(Lane::splat(filled as f64))
+    const NUMBERS: Lane = Lanes([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+    R::load(&NUMBERS).lt(R::splat(filled as f64))
 }

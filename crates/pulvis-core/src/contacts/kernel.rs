@@ -1,27 +1,25 @@
 //! The contact loop: the same text for every law and instruction set.
 
-use multiversion::multiversion;
 use pulvis_contact::{
-    Composition, ContactEnergies, ContactResponse, NormalLaw, NormalLawVisitor, Pair, PairMotion,
+    Composition, ContactEnergies, ContactResponse, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance,
 };
-use pulvis_math::{Mask, Real, Vector3};
+use pulvis_math::{InstructionSet, Kernel, Mask, Octet, Quad, Row, Vector3};
 
 use super::block::{ContactGroup, Partner, WIDTH, filled_lanes};
 use super::layout::{Lane, Layout};
 use crate::domain::Images;
+use crate::shared::Shared;
 
-/// The columns that contacts read.
+/// The columns that contacts read. See [`Particles`](crate::Particles) for what the quads hold.
 #[derive(Clone, Copy)]
 pub(crate) struct Moving<'a> {
-    pub(crate) radius: &'a [f64],
-    pub(crate) mass: &'a [f64],
-    pub(crate) position: &'a [Vector3],
+    pub(crate) place: Shared<'a, Quad>,
     /// Velocities at mid-step, which moved the positions.
-    pub(crate) velocity_mid: &'a [Vector3],
+    pub(crate) velocity_mid: Shared<'a, Quad>,
     /// Velocities at the time of the positions.
-    pub(crate) velocity: &'a [Vector3],
-    pub(crate) spin_mid: &'a [Vector3],
-    pub(crate) spin: &'a [Vector3],
+    pub(crate) velocity: Shared<'a, Quad>,
+    pub(crate) spin_mid: Shared<'a, Quad>,
+    pub(crate) spin: Shared<'a, Quad>,
 }
 
 /// A plane wall at the time of the positions.
@@ -45,294 +43,320 @@ pub(crate) struct ContactTotals {
     pub(crate) force: Vector3,
 }
 
-/// One number of each of eight rows.
-#[inline(always)]
-fn gather(column: &[f64], rows: &[u32; WIDTH]) -> Lane {
-    let mut lanes = [0.0; WIDTH];
-    for lane in 0..WIDTH {
-        lanes[lane] = column[rows[lane] as usize];
-    }
-    Lane::from(lanes)
+/// Force [N] and torque [N m] on a body.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, align(64))]
+pub(crate) struct Load {
+    pub(crate) force: Quad,
+    pub(crate) torque: Quad,
 }
 
-/// One vector of each of eight rows.
-#[inline(always)]
-fn gather3(column: &[Vector3], rows: &[u32; WIDTH]) -> Vector3<Lane> {
-    let (mut x, mut y, mut z) = ([0.0; WIDTH], [0.0; WIDTH], [0.0; WIDTH]);
-    for lane in 0..WIDTH {
-        let vector = column[rows[lane] as usize];
-        x[lane] = vector.x;
-        y[lane] = vector.y;
-        z[lane] = vector.z;
-    }
-    Vector3::new(Lane::from(x), Lane::from(y), Lane::from(z))
-}
-
-/// How far bodies have moved since the candidates were listed, and over which step.
+/// How far bodies have moved since the candidates were listed, over which step, and how the loop is to
+/// run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Advance {
     /// By how much a gap can have closed at the most [m].
     pub(crate) closed: f64,
     /// The step that led to the present positions [s].
     pub(crate) time_step: f64,
+    /// The nearest-image rule.
+    pub(crate) images: Images,
+    /// Whether energies are summed up.
+    pub(crate) ledger: bool,
+    /// What the processor can do.
+    pub(crate) instructions: InstructionSet,
 }
 
-/// Computes the forces of a group's contacts, particle pairs or contacts with a wall; they are left in
-/// the group, with what they add up to.
-pub(crate) fn sweep(
+/// Computes a group's contacts, particle pairs or contacts with a wall, and adds their loads to `sums`.
+///
+/// # Safety
+/// The group's rows lie within the columns of `moving`, its places of sums within `sums`, and nobody
+/// writes those rows meanwhile.
+pub(crate) unsafe fn sweep(
     group: &mut ContactGroup,
+    sums: &mut [Load],
     moving: Moving<'_>,
-    images: Images,
     walls: &[WallMotionNow],
-    advance: Advance,
+    advance: &Advance,
 ) {
     let normal = group.model.normal;
     match group.partner {
-        Partner::Particle => normal.accept(PairSweep { group, moving, images, advance }),
-        Partner::Wall(place) => normal.accept(WallSweep { group, moving, wall: walls[place], advance }),
+        Partner::Particle => normal.accept(PairSweep(Loop { group, sums, moving, advance })),
+        Partner::Wall(place) => {
+            normal.accept(WallSweep(Loop { group, sums, moving, advance }, walls[place]));
+        }
     }
 }
 
-struct PairSweep<'a> {
+/// What a loop works on.
+struct Loop<'a> {
     group: &'a mut ContactGroup,
+    sums: &'a mut [Load],
     moving: Moving<'a>,
-    images: Images,
-    advance: Advance,
+    advance: &'a Advance,
 }
+
+struct PairSweep<'a>(Loop<'a>);
 
 impl NormalLawVisitor for PairSweep<'_> {
     type Output = ();
     fn visit<N: NormalLaw>(self, law: N) {
-        let Self { group, moving, images, advance } = self;
-        if group.model.composition.has_friction() {
-            sweep_pairs::<N, true>(law, group, moving, images, advance);
-        } else {
-            sweep_pairs::<N, false>(law, group, moving, images, advance);
+        let Self(contacts) = self;
+        let (level, advance) = (contacts.group.model.composition.resistance_level(), contacts.advance);
+        let set = advance.instructions;
+        match (level, advance.ledger) {
+            (resistance::NONE, true) => set.run(PairLoop::<N, { resistance::NONE }, true> { law, contacts }),
+            (resistance::NONE, false) => {
+                set.run(PairLoop::<N, { resistance::NONE }, false> { law, contacts });
+            }
+            (resistance::SLIDING, true) => {
+                set.run(PairLoop::<N, { resistance::SLIDING }, true> { law, contacts });
+            }
+            (resistance::SLIDING, false) => {
+                set.run(PairLoop::<N, { resistance::SLIDING }, false> { law, contacts });
+            }
+            (_, true) => set.run(PairLoop::<N, { resistance::ALL }, true> { law, contacts }),
+            (_, false) => set.run(PairLoop::<N, { resistance::ALL }, false> { law, contacts }),
         }
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw", "x86_64+avx2"), dispatcher = "direct")]
-fn sweep_pairs<N: NormalLaw, const FRICTION: bool>(
+/// The columns of eight rows.
+///
+/// # Safety
+/// The rows lie within the column, and nobody writes them meanwhile.
+#[inline(always)]
+unsafe fn gather<R: Octet>(column: Shared<'_, Quad>, rows: &[u32; WIDTH]) -> (Vector3<R>, R) {
+    // SAFETY: the caller's.
+    let [x, y, z, scalar] = unsafe {
+        R::columns([
+            R::Row::load(column.get(rows[0] as usize)),
+            R::Row::load(column.get(rows[1] as usize)),
+            R::Row::load(column.get(rows[2] as usize)),
+            R::Row::load(column.get(rows[3] as usize)),
+            R::Row::load(column.get(rows[4] as usize)),
+            R::Row::load(column.get(rows[5] as usize)),
+            R::Row::load(column.get(rows[6] as usize)),
+            R::Row::load(column.get(rows[7] as usize)),
+        ])
+    };
+    (Vector3::new(x, y, z), scalar)
+}
+
+/// The rows of a vector; their scalars are zero.
+#[inline(always)]
+fn rows_of<R: Octet>(vector: Vector3<R>) -> [R::Row; WIDTH] {
+    R::rows([vector.x, vector.y, vector.z, R::zero()])
+}
+
+/// Adds eight rows to the sums, one after the other: several lanes may have the same place.
+macro_rules! add_rows {
+    ($sums:expr, $places:expr, $part:ident, $sum:ident, $rows:expr) => {
+        for lane in 0..WIDTH {
+            let place = $places[lane] as usize;
+            debug_assert!(place < $sums.len());
+            // SAFETY: places lie within the sums, as the caller of `sweep` vouches.
+            let slot = unsafe { &mut $sums.get_unchecked_mut(place).$part };
+            R::Row::load(slot).$sum($rows[lane]).store(slot);
+        }
+    };
+}
+
+struct PairLoop<'a, N, const RESISTANCE: u8, const LEDGER: bool> {
     law: N,
-    group: &mut ContactGroup,
-    moving: Moving<'_>,
-    images: Images,
-    advance: Advance,
-) {
-    let reach = Lane::splat(-group.model.composition.noncontact.reach());
-    let mut energies = ContactEnergies::<Lane>::default();
-    let mut bodies = [(Body::default(), Body::default()); BATCH];
-    let blocks = group.first.len();
-    for start in (0..blocks).step_by(BATCH) {
-        let batch = start..(start + BATCH).min(blocks);
-        let mut looked_at = 0_u32;
-        for block in batch.clone() {
+    contacts: Loop<'a>,
+}
+
+impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop<'_, N, RESISTANCE, LEDGER> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Octet>(self) {
+        let Self { law, contacts: Loop { group, sums, moving, advance } } = self;
+        // By value: not to be read anew after every store.
+        let (composition, layout, advance) = (group.model.composition, group.layout, *advance);
+        let columns = layout.columns();
+        let turning_dashpots = composition.has_resistance_dashpot();
+        let reach = R::splat(-composition.noncontact.reach());
+        let mut energies = ContactEnergies::<R>::default();
+        for block in 0..group.first.len() {
             if group.gap[block] > advance.closed && !group.live[block] {
                 continue;
             }
-            let (first, second) = &mut bodies[block - start];
-            first.gather_place(moving, &group.first[block]);
-            second.gather_place(moving, &group.second[block]);
-            looked_at |= 1 << (block - start);
-        }
-        let mut acting = 0_u32;
-        for block in batch.clone().filter(|block| looked_at & (1 << (block - start)) != 0) {
-            let (first, second) = &bodies[block - start];
-            let separation = images.nearest(first.position - second.position);
-            let overlap = first.radius + second.radius - separation.norm();
-            let valid = filled_lanes(group.filled(block));
-            let acts = (overlap.gt(reach) & valid).any();
-            if acts || group.live[block] {
-                acting |= 1 << (block - start);
+            let (first, second) = (&group.first[block], &group.second[block]);
+            // SAFETY (here and below): rows lie within the columns, as the caller of `sweep` vouches.
+            let (centre_i, radius_i) = unsafe { gather::<R>(moving.place, first) };
+            let (centre_j, radius_j) = unsafe { gather::<R>(moving.place, second) };
+            let separation = advance.images.nearest(centre_i - centre_j);
+            let distance = separation.norm();
+            let overlap = radius_i + radius_j - distance;
+            let filled = group.filled(block);
+            // Idle lanes are out of any reach.
+            let overlap = R::select(filled_lanes::<R>(filled), overlap, reach + reach - radius_i);
+            let acts = overlap.gt(reach).any();
+            if !acts && !group.live[block] {
+                continue;
             }
             group.live[block] = acts;
-        }
-        for block in batch.clone().filter(|block| acting & (1 << (block - start)) != 0) {
-            let (first, second) = &mut bodies[block - start];
-            first.gather_motion::<FRICTION>(moving, &group.first[block]);
-            second.gather_motion::<FRICTION>(moving, &group.second[block]);
-        }
-        for block in batch.filter(|block| acting & (1 << (block - start)) != 0) {
-            let (first, second) = &bodies[block - start];
-            let separation = images.nearest(first.position - second.position);
-            let distance = separation.norm();
-            let inverse_distance = Lane::one() / distance;
-            // Idle lanes are out of any reach.
-            let idle = reach + reach - first.radius;
-            let overlap = first.radius + second.radius - distance;
+            let inverse_distance = R::one() / distance;
+            let (mid_i, inverse_mass_i) = unsafe { gather::<R>(moving.velocity_mid, first) };
+            let (mid_j, inverse_mass_j) = unsafe { gather::<R>(moving.velocity_mid, second) };
+            let (velocity_i, inverse_radius_i) = unsafe { gather::<R>(moving.velocity, first) };
+            let (velocity_j, inverse_radius_j) = unsafe { gather::<R>(moving.velocity, second) };
+            let (mut spin_i_mid, mut spin_j_mid) = (Vector3::zero(), Vector3::zero());
+            let (mut spin_i, mut spin_j) = (Vector3::zero(), Vector3::zero());
+            if RESISTANCE != resistance::NONE {
+                spin_i_mid = unsafe { gather::<R>(moving.spin_mid, first) }.0;
+                spin_j_mid = unsafe { gather::<R>(moving.spin_mid, second) }.0;
+                (spin_i, spin_j) = (spin_i_mid, spin_j_mid);
+                if turning_dashpots {
+                    spin_i = unsafe { gather::<R>(moving.spin, first) }.0;
+                    spin_j = unsafe { gather::<R>(moving.spin, second) }.0;
+                }
+            }
             let motion = PairMotion {
                 normal: separation * inverse_distance,
-                overlap: Lane::select(filled_lanes(group.filled(block)), overlap, idle),
+                overlap,
                 inverse_distance,
-                radius_i: first.radius,
-                radius_j: second.radius,
-                velocity: first.velocity - second.velocity,
-                velocity_mid: first.velocity_mid - second.velocity_mid,
-                spin_i: first.spin,
-                spin_j: second.spin,
-                spin_i_mid: first.spin_mid,
-                spin_j_mid: second.spin_mid,
+                radius_i,
+                radius_j,
+                velocity: velocity_i - velocity_j,
+                velocity_mid: mid_i - mid_j,
+                spin_i,
+                spin_j,
+                spin_i_mid,
+                spin_j_mid,
             };
-            let pair = Pair::spheres(first.mass, second.mass, first.radius, second.radius);
-            let answer = respond_block::<N, FRICTION>(&law, group, block, &pair, &motion, advance.time_step);
-            energies += answer.energies;
+            let pair = Pair::spheres_from_inverses(
+                inverse_mass_i,
+                inverse_mass_j,
+                inverse_radius_i,
+                inverse_radius_j,
+            );
+            let memory = &mut group.memory[block * columns..(block + 1) * columns];
+            let answer = respond::<R, N, RESISTANCE>(
+                &law,
+                &composition,
+                &layout,
+                &pair,
+                &motion,
+                advance.time_step,
+                memory,
+            );
+            let force = rows_of::<R>(answer.force);
+            add_rows!(sums, group.first_sum[block], force, plus, force);
+            add_rows!(sums, group.second_sum[block], force, minus, force);
+            if RESISTANCE != resistance::NONE {
+                let torque = rows_of::<R>(answer.torque_i);
+                add_rows!(sums, group.first_sum[block], torque, plus, torque);
+                let torque = rows_of::<R>(answer.torque_j);
+                add_rows!(sums, group.second_sum[block], torque, plus, torque);
+            }
+            if LEDGER {
+                energies += answer.energies;
+            }
         }
-    }
-    group.totals = ContactTotals { energies: energies.sum_lanes(), force: Vector3::zero() };
-}
-
-/// Blocks whose bodies are gathered before any of them is computed. Gathering and computing block by
-/// block, the compiler carries the gathered numbers one by one into the arithmetic; from memory it
-/// takes them eight at a time.
-const BATCH: usize = 8;
-
-/// Eight bodies, one a lane.
-#[derive(Clone, Copy, Default)]
-struct Body {
-    position: Vector3<Lane>,
-    radius: Lane,
-    mass: Lane,
-    velocity: Vector3<Lane>,
-    velocity_mid: Vector3<Lane>,
-    spin: Vector3<Lane>,
-    spin_mid: Vector3<Lane>,
-}
-
-impl Body {
-    #[inline(always)]
-    fn gather_place(&mut self, moving: Moving<'_>, rows: &[u32; WIDTH]) {
-        self.position = gather3(moving.position, rows);
-        self.radius = gather(moving.radius, rows);
-    }
-
-    #[inline(always)]
-    fn gather_motion<const FRICTION: bool>(&mut self, moving: Moving<'_>, rows: &[u32; WIDTH]) {
-        self.mass = gather(moving.mass, rows);
-        self.velocity = gather3(moving.velocity, rows);
-        self.velocity_mid = gather3(moving.velocity_mid, rows);
-        if FRICTION {
-            self.spin = gather3(moving.spin, rows);
-            self.spin_mid = gather3(moving.spin_mid, rows);
-        }
+        group.totals = ContactTotals { energies: energies.sum_lanes(), force: Vector3::zero() };
     }
 }
 
-struct WallSweep<'a> {
-    group: &'a mut ContactGroup,
-    moving: Moving<'a>,
-    wall: WallMotionNow,
-    advance: Advance,
-}
+struct WallSweep<'a>(Loop<'a>, WallMotionNow);
 
 impl NormalLawVisitor for WallSweep<'_> {
     type Output = ();
     fn visit<N: NormalLaw>(self, law: N) {
-        let Self { group, moving, wall, advance } = self;
-        if group.model.composition.has_friction() {
-            sweep_wall::<N, true>(law, group, moving, wall, advance);
-        } else {
-            sweep_wall::<N, false>(law, group, moving, wall, advance);
-        }
+        let Self(contacts, wall) = self;
+        contacts.advance.instructions.run(WallLoop { law, contacts, wall });
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw", "x86_64+avx2"), dispatcher = "direct")]
-fn sweep_wall<N: NormalLaw, const FRICTION: bool>(
+/// Walls have few contacts: one loop for all resistances serves.
+struct WallLoop<'a, N> {
     law: N,
-    group: &mut ContactGroup,
-    moving: Moving<'_>,
+    contacts: Loop<'a>,
     wall: WallMotionNow,
-    advance: Advance,
-) {
-    let composition = group.model.composition;
-    let reach = Lane::splat(-composition.noncontact.reach());
-    let normal = Vector3::<Lane>::splat(wall.normal);
-    let wall_now = Vector3::<Lane>::splat(wall.velocity);
-    let wall_mid = Vector3::<Lane>::splat(wall.velocity_mid);
-    let mut energies = ContactEnergies::<Lane>::default();
-    let mut total = Vector3::zero();
-    for block in 0..group.first.len() {
-        if group.gap[block] > advance.closed && !group.live[block] {
-            continue;
-        }
-        let rows = group.first[block];
-        let filled = group.filled(block);
-        let radius = gather(moving.radius, &rows);
-        let distance = gather3(moving.position, &rows).dot(normal) - Lane::splat(wall.offset);
-        let overlap = Lane::select(filled_lanes(filled), radius - distance, reach + reach - radius);
-        let acts = overlap.gt(reach).any();
-        if !acts && !group.live[block] {
-            continue;
-        }
-        group.live[block] = acts;
-        let motion = PairMotion {
-            normal,
-            overlap,
-            inverse_distance: Lane::zero(),
-            radius_i: radius,
-            radius_j: Lane::zero(),
-            velocity: gather3(moving.velocity, &rows) - wall_now,
-            velocity_mid: gather3(moving.velocity_mid, &rows) - wall_mid,
-            spin_i: gather3(moving.spin, &rows),
-            spin_j: Vector3::default(),
-            spin_i_mid: gather3(moving.spin_mid, &rows),
-            spin_j_mid: Vector3::default(),
-        };
-        let pair = Pair::wall(gather(moving.mass, &rows), radius);
-        let answer = respond_block::<N, FRICTION>(&law, group, block, &pair, &motion, advance.time_step);
-        energies += answer.energies;
-        for lane in 0..filled {
-            total += answer.force.lane(lane);
-        }
-    }
-    group.totals = ContactTotals { energies: energies.sum_lanes(), force: total };
 }
 
-/// The response of a block; its memory and its forces are written back.
-#[inline(always)]
-fn respond_block<N: NormalLaw, const FRICTION: bool>(
-    law: &N,
-    group: &mut ContactGroup,
-    block: usize,
-    pair: &Pair<Lane>,
-    motion: &PairMotion<Lane>,
-    time_step: f64,
-) -> ContactResponse<Lane> {
-    let columns = group.layout.columns();
-    let memory = &mut group.memory[block * columns..(block + 1) * columns];
-    let composition = &group.model.composition;
-    let answer = respond::<N, FRICTION>(law, composition, &group.layout, pair, motion, time_step, memory);
-    let components = if FRICTION { 9 } else { 3 };
-    let forces = &mut group.forces[block * components..(block + 1) * components];
-    store3(&mut forces[..3], answer.force);
-    if FRICTION {
-        store3(&mut forces[3..6], answer.torque_i);
-        store3(&mut forces[6..9], answer.torque_j);
-    }
-    answer
-}
+impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
+    type Output = ();
 
-#[inline(always)]
-fn store3(slots: &mut [Lane], vector: Vector3<Lane>) {
-    slots[0] = vector.x;
-    slots[1] = vector.y;
-    slots[2] = vector.z;
+    #[inline(always)]
+    fn run<R: Octet>(self) {
+        let Self { law, contacts: Loop { group, sums, moving, advance }, wall } = self;
+        let (composition, layout, advance) = (group.model.composition, group.layout, *advance);
+        let columns = layout.columns();
+        let reach = R::splat(-composition.noncontact.reach());
+        let normal = Vector3::<R>::splat(wall.normal);
+        let wall_now = Vector3::<R>::splat(wall.velocity);
+        let wall_mid = Vector3::<R>::splat(wall.velocity_mid);
+        let mut energies = ContactEnergies::<R>::default();
+        let mut total = Vector3::<R>::zero();
+        for block in 0..group.first.len() {
+            if group.gap[block] > advance.closed && !group.live[block] {
+                continue;
+            }
+            let rows = &group.first[block];
+            // SAFETY (here and below): rows lie within the columns, as the caller of `sweep` vouches.
+            let (centre, radius) = unsafe { gather::<R>(moving.place, rows) };
+            let overlap = radius - (centre.dot(normal) - R::splat(wall.offset));
+            let valid = filled_lanes::<R>(group.filled(block));
+            let overlap = R::select(valid, overlap, reach + reach - radius);
+            let acts = overlap.gt(reach).any();
+            if !acts && !group.live[block] {
+                continue;
+            }
+            group.live[block] = acts;
+            let (mid, inverse_mass) = unsafe { gather::<R>(moving.velocity_mid, rows) };
+            let (velocity, inverse_radius) = unsafe { gather::<R>(moving.velocity, rows) };
+            let motion = PairMotion {
+                normal,
+                overlap,
+                inverse_distance: R::zero(),
+                radius_i: radius,
+                radius_j: R::zero(),
+                velocity: velocity - wall_now,
+                velocity_mid: mid - wall_mid,
+                spin_i: unsafe { gather::<R>(moving.spin, rows) }.0,
+                spin_j: Vector3::zero(),
+                spin_i_mid: unsafe { gather::<R>(moving.spin_mid, rows) }.0,
+                spin_j_mid: Vector3::zero(),
+            };
+            let pair = Pair::wall_from_inverses(inverse_mass, inverse_radius);
+            let memory = &mut group.memory[block * columns..(block + 1) * columns];
+            let answer = respond::<R, N, { resistance::ALL }>(
+                &law,
+                &composition,
+                &layout,
+                &pair,
+                &motion,
+                advance.time_step,
+                memory,
+            );
+            let force = rows_of::<R>(answer.force);
+            let torque = rows_of::<R>(answer.torque_i);
+            add_rows!(sums, group.first_sum[block], force, plus, force);
+            add_rows!(sums, group.first_sum[block], torque, plus, torque);
+            total += answer.force;
+            energies += answer.energies;
+        }
+        let force = Vector3::new(total.x.sum_lanes(), total.y.sum_lanes(), total.z.sum_lanes());
+        group.totals = ContactTotals { energies: energies.sum_lanes(), force };
+    }
 }
 
 /// One block: memory in, response, memory out.
 #[inline(always)]
-pub(crate) fn respond<N: NormalLaw, const FRICTION: bool>(
+pub(crate) fn respond<R: Octet, N: NormalLaw, const RESISTANCE: u8>(
     law: &N,
     composition: &Composition,
     layout: &Layout,
-    pair: &Pair<Lane>,
-    motion: &PairMotion<Lane>,
+    pair: &Pair<R>,
+    motion: &PairMotion<R>,
     time_step: f64,
     columns: &mut [Lane],
-) -> ContactResponse<Lane> {
-    let mut memory = layout.load::<N::Memory<Lane>>(columns);
-    let answer = composition.respond::<Lane, N, FRICTION>(law, pair, motion, time_step, &mut memory);
+) -> ContactResponse<R> {
+    let mut memory = layout.load::<R, N::Memory<R>>(columns);
+    let answer = composition.respond::<R, N, RESISTANCE>(law, pair, motion, time_step, &mut memory);
     layout.store(&memory, columns);
     answer
 }

@@ -1,7 +1,7 @@
 //! Where the parts of a contact's memory stand among its columns.
 
 use pulvis_contact::{ContactMemory, ContactModel, Memory, NormalLaw, NormalLawVisitor};
-use pulvis_math::{Lanes, Vector3};
+use pulvis_math::{Lanes, Octet, Vector3};
 
 /// Eight contacts at a time.
 pub(crate) type Lane = Lanes<8>;
@@ -51,44 +51,42 @@ impl Layout {
         self.columns
     }
 
-    /// The columns of the normal law among those of a block.
-    pub(crate) fn normal_memory<'a>(&self, columns: &'a [Lane]) -> &'a [Lane] {
-        &columns[..self.normal_columns]
+    /// The memory of one lane of a block.
+    pub(crate) fn load_one<M: Memory<f64>>(&self, columns: &[Lane], lane: usize) -> ContactMemory<f64, M> {
+        let number = |place: Option<usize>| place.map_or(0.0, |place| columns[place].0[lane]);
+        let vector = |place: Option<usize>| {
+            let along = |axis: usize| number(place.map(|place| place + axis));
+            Vector3::new(along(0), along(1), along(2))
+        };
+        ContactMemory {
+            normal: M::load(|column| columns[column].0[lane]),
+            touched: number(self.touched),
+            sliding: vector(self.sliding),
+            rolling: vector(self.rolling),
+            torsion: number(self.torsion),
+        }
     }
 
     /// The memory of a block, read from its columns.
     #[inline(always)]
-    pub(crate) fn load<M: Memory<Lane>>(&self, columns: &[Lane]) -> ContactMemory<Lane, M> {
-        let vector = |place: Option<usize>| match place {
-            Some(first) => Vector3::new(columns[first], columns[first + 1], columns[first + 2]),
-            None => Vector3::default(),
-        };
-        let scalar = |place: Option<usize>| place.map_or(Lane::default(), |first| columns[first]);
+    pub(crate) fn load<R: Octet, M: Memory<R>>(&self, columns: &[Lane]) -> ContactMemory<R, M> {
         ContactMemory {
-            normal: M::load(|column| columns[column]),
-            touched: scalar(self.touched),
-            sliding: vector(self.sliding),
-            rolling: vector(self.rolling),
-            torsion: scalar(self.torsion),
+            normal: M::load(|column| R::load(&columns[column])),
+            touched: load_number(self.touched, columns),
+            sliding: load_vector(self.sliding, columns),
+            rolling: load_vector(self.rolling, columns),
+            torsion: load_number(self.torsion, columns),
         }
     }
 
     /// The memory of a block, written into its columns.
     #[inline(always)]
-    pub(crate) fn store<M: Memory<Lane>>(&self, memory: &ContactMemory<Lane, M>, columns: &mut [Lane]) {
-        memory.normal.store(|column, value| columns[column] = value);
-        let mut scalar = |place: Option<usize>, value: Lane| {
-            if let Some(first) = place {
-                columns[first] = value;
-            }
-        };
-        scalar(self.touched, memory.touched);
-        scalar(self.torsion, memory.torsion);
-        for (place, vector) in [(self.sliding, memory.sliding), (self.rolling, memory.rolling)] {
-            scalar(place, vector.x);
-            scalar(place.map(|first| first + 1), vector.y);
-            scalar(place.map(|first| first + 2), vector.z);
-        }
+    pub(crate) fn store<R: Octet, M: Memory<R>>(&self, memory: &ContactMemory<R, M>, columns: &mut [Lane]) {
+        memory.normal.store(|column, value| value.store(&mut columns[column]));
+        store_number(self.touched, memory.touched, columns);
+        store_vector(self.sliding, memory.sliding, columns);
+        store_vector(self.rolling, memory.rolling, columns);
+        store_number(self.torsion, memory.torsion, columns);
     }
 
     /// The columns of this layout filled from a contact remembered in another one: what both laws
@@ -108,6 +106,41 @@ impl Layout {
         copy(self.rolling, from.rolling, 3);
         copy(self.torsion, from.torsion, 1);
         translated
+    }
+}
+
+#[inline(always)]
+fn load_number<R: Octet>(place: Option<usize>, columns: &[Lane]) -> R {
+    match place {
+        Some(place) => R::load(&columns[place]),
+        None => R::zero(),
+    }
+}
+
+#[inline(always)]
+fn load_vector<R: Octet>(place: Option<usize>, columns: &[Lane]) -> Vector3<R> {
+    match place {
+        Some(place) => {
+            let [x, y, z] = [&columns[place], &columns[place + 1], &columns[place + 2]];
+            Vector3::new(R::load(x), R::load(y), R::load(z))
+        }
+        None => Vector3::zero(),
+    }
+}
+
+#[inline(always)]
+fn store_number<R: Octet>(place: Option<usize>, value: R, columns: &mut [Lane]) {
+    if let Some(place) = place {
+        value.store(&mut columns[place]);
+    }
+}
+
+#[inline(always)]
+fn store_vector<R: Octet>(place: Option<usize>, value: Vector3<R>, columns: &mut [Lane]) {
+    if let Some(place) = place {
+        value.x.store(&mut columns[place]);
+        value.y.store(&mut columns[place + 1]);
+        value.z.store(&mut columns[place + 2]);
     }
 }
 
@@ -158,7 +191,7 @@ mod tests {
         });
         let layout = Layout::of(&model);
         let columns: Vec<Lane> = (0..4).map(|column| Lane::from([f64::from(column); 8])).collect();
-        let memory = layout.load::<pulvis_contact::normal::LudingMemory<Lane>>(&columns);
+        let memory = layout.load::<Lane, pulvis_contact::normal::LudingMemory<Lane>>(&columns);
         let mut copy = vec![Lane::default(); 4];
         layout.store(&memory, &mut copy);
         assert_eq!(copy, columns);

@@ -1,17 +1,17 @@
 //! The contact table: candidate pairs in blocks of eight, and what each contact remembers.
 
-mod adjacency;
 mod block;
 mod interactions;
 mod kernel;
 mod layout;
+mod piece;
 mod rebuild;
 mod table;
 mod view;
 
 pub(crate) use block::Partner;
 pub use interactions::Interactions;
-pub(crate) use kernel::{Advance, Moving, WallMotionNow};
+pub(crate) use kernel::{Advance, Load, Moving, WallMotionNow};
 pub(crate) use rebuild::MemoryStore;
 pub(crate) use table::{ContactTable, Surroundings};
 pub use view::{ContactPartner, ContactView};

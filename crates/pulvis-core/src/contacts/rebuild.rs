@@ -1,80 +1,93 @@
 //! How contact memory survives a new list of candidates.
 
+use std::borrow::Cow;
+
 use super::block::{ContactGroup, Partner};
 use super::layout::Layout;
 use crate::particles::ParticleId;
 
-/// Who is in contact: the ids of two particles, the lower first, or a particle's id and a wall.
-type Key = (u32, ParticleId, ParticleId);
-
-/// The memory of all contacts that remember anything, sorted for searching.
+/// The memory of all contacts that remember anything, by the id of their first body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MemoryStore {
-    /// Key, layout and first place among the records, sorted by key.
-    entries: Vec<(Key, u16, usize)>,
+    /// First entry of each id, and one more at the end.
+    starts: Vec<u32>,
+    entries: Vec<Entry>,
     records: Vec<f64>,
     /// The layouts that records were written with, and the names of their normal laws.
     layouts: Vec<(Layout, &'static str)>,
 }
 
-const NO_WALL: u32 = u32::MAX;
+#[derive(Clone, Copy, Debug, Default)]
+struct Entry {
+    /// Id of the second body, or what stands for a wall.
+    partner: u32,
+    layout: u32,
+    /// First place among the records.
+    record: usize,
+}
+
+/// What stands for a wall where other contacts have the id of their second body.
+pub(crate) fn wall_partner(wall: usize) -> u32 {
+    u32::MAX - wall as u32
+}
 
 impl MemoryStore {
     /// The memory of the groups' contacts.
     pub(crate) fn gather<'a>(groups: impl Iterator<Item = &'a ContactGroup>, ids: &[ParticleId]) -> Self {
-        let mut store = Self::default();
+        let mut store = Self { starts: vec![0; ids.len() + 1], ..Self::default() };
+        let mut unsorted: Vec<(ParticleId, Entry)> = Vec::new();
         for group in groups {
-            let layout = store.layouts.len() as u16;
-            store.layouts.push((group.layout, group.model.normal.entry().name));
+            let layout = store.number_of(group);
             group.for_each_memory(|block, lane, record| {
                 let first = ids[group.first[block][lane] as usize];
-                let key = match group.partner {
-                    Partner::Particle => (NO_WALL, first, ids[group.second[block][lane] as usize]),
-                    Partner::Wall(wall) => (wall as u32, first, 0),
+                let partner = match group.partner {
+                    Partner::Particle => ids[group.second[block][lane] as usize],
+                    Partner::Wall(wall) => wall_partner(wall),
                 };
-                store.entries.push((key, layout, store.records.len()));
+                unsorted.push((first, Entry { partner, layout, record: store.records.len() }));
+                store.starts[first as usize + 1] += 1;
                 store.records.extend_from_slice(record);
             });
         }
-        store.entries.sort_unstable_by_key(|&(key, ..)| key);
+        for id in 0..ids.len() {
+            store.starts[id + 1] += store.starts[id];
+        }
+        let mut next = store.starts.clone();
+        store.entries.resize(unsorted.len(), Entry::default());
+        for (first, entry) in unsorted {
+            let place = &mut next[first as usize];
+            store.entries[*place as usize] = entry;
+            *place += 1;
+        }
         store
     }
 
-    /// The memory of a contact in the layout of the group that it now belongs to.
-    fn find(&self, key: Key, group: &ContactGroup) -> Option<std::borrow::Cow<'_, [f64]>> {
-        let entry = self.entries.binary_search_by_key(&key, |&(key, ..)| key).ok()?;
-        let (_, layout, start) = self.entries[entry];
-        let (layout, law) = &self.layouts[usize::from(layout)];
-        let record = &self.records[start..start + layout.columns()];
+    fn number_of(&mut self, group: &ContactGroup) -> u32 {
+        let layout = (group.layout, group.model.normal.entry().name);
+        let known = self.layouts.iter().position(|known| *known == layout);
+        known.unwrap_or_else(|| {
+            self.layouts.push(layout);
+            self.layouts.len() - 1
+        }) as u32
+    }
+
+    /// The memory of the contact of the first body with its partner, in the layout of the group that it
+    /// now belongs to.
+    pub(crate) fn find(
+        &self,
+        first: ParticleId,
+        partner: u32,
+        group: &ContactGroup,
+    ) -> Option<Cow<'_, [f64]>> {
+        let id = first as usize;
+        let range = *self.starts.get(id)? as usize..*self.starts.get(id + 1)? as usize;
+        let entry = self.entries[range].iter().find(|entry| entry.partner == partner)?;
+        let (layout, law) = &self.layouts[entry.layout as usize];
+        let record = &self.records[entry.record..entry.record + layout.columns()];
         let same_law = *law == group.model.normal.entry().name;
         if same_law && *layout == group.layout {
             return Some(record.into());
         }
         Some(group.layout.translate(layout, record, same_law).into())
-    }
-
-    /// Adds the candidate pair of two rows to `group`, the lower id first, with its memory.
-    pub(crate) fn push_pair(&self, group: &mut ContactGroup, rows: (u32, u32), gap: f64, ids: &[ParticleId]) {
-        let (one, other) = (ids[rows.0 as usize], ids[rows.1 as usize]);
-        let (rows, key) = if one < other {
-            (rows, (NO_WALL, one, other))
-        } else {
-            ((rows.1, rows.0), (NO_WALL, other, one))
-        };
-        let record = self.find(key, group);
-        group.push(rows.0, rows.1, gap, record.as_deref());
-    }
-
-    /// Adds the particle of a row as a candidate of the group's wall, with its memory.
-    pub(crate) fn push_wall(
-        &self,
-        group: &mut ContactGroup,
-        wall: usize,
-        row: u32,
-        gap: f64,
-        ids: &[ParticleId],
-    ) {
-        let record = self.find((wall as u32, ids[row as usize], 0), group);
-        group.push(row, row, gap, record.as_deref());
     }
 }

@@ -1,13 +1,12 @@
 //! Contacts as others see them: one at a time, with forces, for output and analysis.
 
-use pulvis_contact::{NormalLaw, NormalLawVisitor, Pair, PairMotion};
-use pulvis_math::{Lanes, Real, Vector3};
+use pulvis_contact::{Memory, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance};
+use pulvis_math::Vector3;
 
-use super::block::{ContactGroup, Partner, WIDTH};
-use super::kernel::{Moving, WallMotionNow, respond};
-use super::layout::Lane;
+use super::block::{ContactGroup, Partner};
+use super::kernel::WallMotionNow;
 use crate::domain::Images;
-use crate::particles::ParticleId;
+use crate::particles::{ParticleId, Particles};
 
 /// The second body of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,8 +41,7 @@ pub struct ContactView {
 
 pub(crate) struct Views<'a> {
     pub(crate) group: &'a ContactGroup,
-    pub(crate) moving: Moving<'a>,
-    pub(crate) ids: &'a [ParticleId],
+    pub(crate) particles: &'a Particles,
     pub(crate) images: Images,
     /// For walls: how the wall lies and moves.
     pub(crate) wall: Option<WallMotionNow>,
@@ -77,94 +75,102 @@ impl NormalLawVisitor for Looking<'_, '_> {
 
 impl Views<'_> {
     fn look<N: NormalLaw>(&self, law: &N, block: usize, lane: usize) -> Option<ContactView> {
-        let (motion, pair, second, centre_second) = self.geometry(block, lane)?;
         let group = self.group;
-        let first = group.first[block][lane] as usize;
+        let seen = self.geometry(group.first[block][lane] as usize, block, lane)?;
         let composition = &group.model.composition;
-        if motion.overlap.lane(0) <= -composition.noncontact.reach() {
+        if seen.motion.overlap <= -composition.noncontact.reach() {
             return None;
         }
-        let columns = group.layout.columns();
-        let block_memory = &group.memory[block * columns..(block + 1) * columns];
-        let mut memory: Vec<Lane> = block_memory.iter().map(|column| Lane::splat(column.0[lane])).collect();
-        let answer = respond::<N, true>(law, composition, &group.layout, &pair, &motion, 0.0, &mut memory);
-        let force = answer.force.lane(0);
-        let at_distance = motion.overlap.lane(0) <= 0.0;
-        if at_distance && force == Vector3::zero() {
+        let mut memory = group.layout.load_one::<N::Memory<f64>>(group.columns(block), lane);
+        let answer = composition.respond::<f64, N, { resistance::ALL }>(
+            law,
+            &seen.pair,
+            &seen.motion,
+            0.0,
+            &mut memory,
+        );
+        if seen.motion.overlap <= 0.0 && answer.force == Vector3::zero() {
             return None;
         }
+        let mut first_column = 0.0;
+        memory.normal.store(|column, value| {
+            if column == 0 {
+                first_column = value;
+            }
+        });
         Some(ContactView {
-            first: self.ids[first],
-            second,
-            centre_first: self.moving.position[first],
-            centre_second,
-            overlap: motion.overlap.lane(0),
-            force,
-            normal_force: answer.normal_force.lane(0),
-            memory: group.layout.normal_memory(&memory).first().map_or(0.0, |column| column.lane(0)),
+            first: seen.first,
+            second: seen.second,
+            centre_first: seen.centre_first,
+            centre_second: seen.centre_second,
+            overlap: seen.motion.overlap,
+            force: answer.force,
+            normal_force: answer.normal_force,
+            memory: first_column,
         })
     }
 
-    /// The contact in one lane, as a block of eight equal ones.
-    #[allow(clippy::type_complexity)] // private, taken apart at once
-    fn geometry(
-        &self,
-        block: usize,
-        lane: usize,
-    ) -> Option<(PairMotion<Lane>, Pair<Lane>, ContactPartner, Vector3)> {
-        let moving = &self.moving;
-        let i = self.group.first[block][lane] as usize;
-        let spread = Vector3::<Lane>::splat;
-        let number = |value: f64| Lanes::<WIDTH>::splat(value);
+    /// How the first body, in row `i`, lies and moves against the second one.
+    fn geometry(&self, i: usize, block: usize, lane: usize) -> Option<Seen> {
+        let particles = self.particles;
+        let velocity = |row: usize| particles.velocity[row].vector;
+        let spin = |row: usize| particles.spin[row].vector;
+        let (centre, radius, mass) = (particles.place[i].vector, &particles.radius, &particles.mass);
+        let first = particles.id[i];
         match self.group.partner {
             Partner::Particle => {
                 let j = self.group.second[block][lane] as usize;
-                let separation = self.images.nearest(moving.position[i] - moving.position[j]);
-                let distance = separation.norm();
-                let velocity = moving.velocity[i] - moving.velocity[j];
+                let separation = self.images.nearest(centre - particles.place[j].vector);
+                let inverse_distance = 1.0 / separation.norm();
                 let motion = PairMotion {
-                    normal: spread(separation * (1.0 / distance)),
-                    overlap: number(moving.radius[i] + moving.radius[j] - distance),
-                    inverse_distance: number(1.0 / distance),
-                    radius_i: number(moving.radius[i]),
-                    radius_j: number(moving.radius[j]),
-                    velocity: spread(velocity),
-                    velocity_mid: spread(velocity),
-                    spin_i: spread(moving.spin[i]),
-                    spin_j: spread(moving.spin[j]),
-                    spin_i_mid: spread(moving.spin[i]),
-                    spin_j_mid: spread(moving.spin[j]),
+                    normal: separation * inverse_distance,
+                    overlap: radius[i] + radius[j] - separation.norm(),
+                    inverse_distance,
+                    radius_i: radius[i],
+                    radius_j: radius[j],
+                    velocity: velocity(i) - velocity(j),
+                    velocity_mid: velocity(i) - velocity(j),
+                    spin_i: spin(i),
+                    spin_j: spin(j),
+                    spin_i_mid: spin(i),
+                    spin_j_mid: spin(j),
                 };
-                let pair = Pair::spheres(
-                    number(moving.mass[i]),
-                    number(moving.mass[j]),
-                    motion.radius_i,
-                    motion.radius_j,
-                );
-                let centre = moving.position[i] - separation;
-                Some((motion, pair, ContactPartner::Particle(self.ids[j]), centre))
+                let pair = Pair::spheres(mass[i], mass[j], radius[i], radius[j]);
+                let second = ContactPartner::Particle(particles.id[j]);
+                let centre_second = centre - separation;
+                Some(Seen { motion, pair, first, second, centre_first: centre, centre_second })
             }
             Partner::Wall(place) => {
                 let wall = self.wall?;
-                let distance = moving.position[i].dot(wall.normal) - wall.offset;
-                let velocity = moving.velocity[i] - wall.velocity;
+                let distance = centre.dot(wall.normal) - wall.offset;
                 let motion = PairMotion {
-                    normal: spread(wall.normal),
-                    overlap: number(moving.radius[i] - distance),
-                    inverse_distance: number(0.0),
-                    radius_i: number(moving.radius[i]),
-                    radius_j: number(0.0),
-                    velocity: spread(velocity),
-                    velocity_mid: spread(velocity),
-                    spin_i: spread(moving.spin[i]),
-                    spin_j: spread(Vector3::zero()),
-                    spin_i_mid: spread(moving.spin[i]),
-                    spin_j_mid: spread(Vector3::zero()),
+                    normal: wall.normal,
+                    overlap: radius[i] - distance,
+                    inverse_distance: 0.0,
+                    radius_i: radius[i],
+                    radius_j: 0.0,
+                    velocity: velocity(i) - wall.velocity,
+                    velocity_mid: velocity(i) - wall.velocity,
+                    spin_i: spin(i),
+                    spin_j: Vector3::zero(),
+                    spin_i_mid: spin(i),
+                    spin_j_mid: Vector3::zero(),
                 };
-                let pair = Pair::wall(number(moving.mass[i]), motion.radius_i);
-                let foot = moving.position[i] - wall.normal * distance;
-                Some((motion, pair, ContactPartner::Wall(place), foot))
+                let pair = Pair::wall(mass[i], radius[i]);
+                let second = ContactPartner::Wall(place);
+                let centre_second = centre - wall.normal * distance;
+                Some(Seen { motion, pair, first, second, centre_first: centre, centre_second })
             }
         }
     }
+}
+
+/// One contact before its response.
+struct Seen {
+    motion: PairMotion<f64>,
+    pair: Pair<f64>,
+    first: ParticleId,
+    second: ContactPartner,
+    centre_first: Vector3,
+    centre_second: Vector3,
 }

@@ -6,17 +6,16 @@ mod switch;
 
 pub use errors::{SetupError, StepError};
 
-use pulvis_math::Vector3;
+use pulvis_math::{InstructionSet, Quad, Vector3};
 
 use crate::background::Background;
-use crate::contacts::{
-    Advance, ContactTable, Interactions, MemoryStore, Moving, Surroundings, WallMotionNow,
-};
+use crate::contacts::{Advance, ContactTable, Interactions, MemoryStore, Surroundings, WallMotionNow};
 use crate::domain::Domain;
-use crate::integrator::{collect_and_kick, kick_and_drift};
+use crate::integrator::{Columns, Kick, KickAndDrift};
 use crate::ledger::Running;
 use crate::neighbours::{CellGrid, Outdated, Skin};
-use crate::particles::{Particle, Particles};
+use crate::particles::{MaterialIndex, Particle, Particles};
+use crate::shared::Shared;
 use crate::team::Team;
 use crate::walls::{Extent, FaceArea, Wall, WallMotion, WallState};
 
@@ -53,12 +52,27 @@ pub struct Simulation {
     time: f64,
     contacts: ContactTable,
     team: Team,
+    instructions: InstructionSet,
+    accounting: bool,
+    /// The materials of all particles, each once.
+    materials: Vec<MaterialIndex>,
+    /// Scratch: what came out of the integration of each piece.
+    outcomes: Vec<Outcome>,
     /// Scratch: how the walls lie and move, and their forces on the particles, in this step.
     walls_now: Vec<WallMotionNow>,
     on_particles: Vec<Vector3>,
     skin: Skin,
     running: Running,
     rebuilds: u64,
+}
+
+/// What comes out of the integration of a piece of rows.
+#[derive(Clone, Copy, Debug, Default)]
+struct Outcome {
+    /// Power that the drag takes [W].
+    power: f64,
+    /// Largest square of the distance of any particle from where it was listed [m²].
+    farthest: f64,
 }
 
 /// The skin of the candidate list over the mean radius. Thicker lists are renewed less often but hold
@@ -85,12 +99,19 @@ impl Simulation {
             time: 0.0,
             contacts: ContactTable::default(),
             team: Team::default(),
+            instructions: InstructionSet::widest(),
+            accounting: true,
+            materials: Vec::new(),
+            outcomes: Vec::new(),
             walls_now: Vec::new(),
             on_particles: Vec::new(),
             skin: Skin::default(),
             running: Running::default(),
             rebuilds: 0,
         };
+        simulation.materials.clone_from(&simulation.particles.material);
+        simulation.materials.sort_unstable();
+        simulation.materials.dedup();
         simulation.on_particles = vec![Vector3::zero(); simulation.walls.len()];
         simulation.check_models()?;
         simulation.check_walls()?;
@@ -108,12 +129,9 @@ impl Simulation {
     }
 
     fn check_models(&self) -> Result<(), SetupError> {
-        let mut present: Vec<u16> = self.particles.material.clone();
-        present.sort_unstable();
-        present.dedup();
         let walls = self.walls.iter().map(|wall| wall.material);
-        for &one in &present {
-            for other in present.iter().copied().chain(walls.clone()) {
+        for &one in &self.materials {
+            for other in self.materials.iter().copied().chain(walls.clone()) {
                 if self.interactions.get(one, other).is_none() {
                     return Err(SetupError::NoModel { one, other });
                 }
@@ -155,30 +173,67 @@ impl Simulation {
         2.0 * largest + self.interactions.reach() + self.skin.thickness
     }
 
-    /// One time step: kick and drift, walls, neighbours, forces, kick, ledger.
+    /// One time step.
+    ///
+    /// # Errors
+    /// See [`advance`](Self::advance).
     pub fn step(&mut self) -> Result<(), StepError> {
-        let farthest = kick_and_drift(&mut self.particles, self.skin.listed(), self.time_step, &self.team);
-        self.move_walls();
-        self.step += 1;
-        let mut closed = self.skin.closed(farthest, self.walls.iter().map(Wall::offset));
-        match self.skin.outdated(closed, &self.particles.position) {
-            Outdated::No => {}
+        self.advance(1)
+    }
+
+    /// Time steps: kick and drift, walls, neighbours, forces, kick, ledger. The same as so many single
+    /// [steps](Self::step), but faster: the second kick of a step and the first one of the next are
+    /// made in one go, while the particles are in the cache.
+    ///
+    /// # Errors
+    /// A position is no number any more.
+    pub fn advance(&mut self, steps: u64) -> Result<(), StepError> {
+        if steps == 0 {
+            return Ok(());
+        }
+        let mut farthest = self.kick_and_drift();
+        for left in (0..steps).rev() {
+            self.move_walls();
+            self.step += 1;
+            let closed = self.renew_if_outdated(farthest)?;
+            let background_power;
+            (background_power, farthest) = self.forces_and_kick(closed, false, left > 0);
+            self.finish_walls();
+            self.time += self.time_step;
+            self.running.take_in(self.contacts.energies(), background_power, self.time_step);
+        }
+        Ok(())
+    }
+
+    /// First half kick and drift. Answers with the largest square of the distance of any particle from
+    /// where it was listed [m²].
+    fn kick_and_drift(&mut self) -> f64 {
+        let pieces = self.contacts.pieces();
+        let columns = Columns::of(&mut self.particles, self.skin.listed());
+        let (instructions, time_step) = (self.instructions, self.time_step);
+        self.team.for_each(&mut self.outcomes, |number, outcome| {
+            let rows = pieces[number].rows.clone();
+            // SAFETY: pieces have different rows.
+            outcome.farthest = instructions.run(unsafe { KickAndDrift::new(columns, rows, time_step) });
+        });
+        farthest(&self.outcomes)
+    }
+
+    /// Lists the candidates anew if particles have moved too far, the square of the longest way being
+    /// `farthest` [m²]. Answers by how much a gap can have closed since they were listed [m].
+    fn renew_if_outdated(&mut self, farthest: f64) -> Result<f64, StepError> {
+        let closed = self.skin.closed(farthest, self.walls.iter().map(Wall::offset));
+        match self.skin.outdated(closed, &self.particles.place) {
+            Outdated::No => Ok(closed),
             Outdated::Yes => {
                 self.renew_candidates();
-                closed = 0.0;
+                Ok(0.0)
             }
             Outdated::Lost(row) => {
                 let id = self.particles.id[row];
-                return Err(StepError::Lost { id, step: self.step, time: self.time });
+                Err(StepError::Lost { id, step: self.step, time: self.time })
             }
         }
-        let half = 0.5 * self.time_step;
-        let advance = Advance { closed, time_step: self.time_step };
-        let background_power = self.forces_and_kick(advance, half, false);
-        self.finish_walls();
-        self.time += self.time_step;
-        self.running.take_in(self.contacts.energies(), background_power, self.time_step);
-        Ok(())
     }
 
     fn move_walls(&mut self) {
@@ -204,40 +259,65 @@ impl Simulation {
         }
     }
 
-    /// Forces and torques of all contacts and of the background, and the kick that they give over
-    /// `half` a step [s]. Answers with the drag's power [W]; each wall's force on the particles is
-    /// left in its place.
-    fn forces_and_kick(&mut self, advance: Advance, half: f64, at_rest: bool) -> f64 {
+    /// Forces and torques of all contacts and of the background, and the second half kick; with
+    /// `onwards` also the first half kick and the drift of the next step. `closed` is by how much a gap
+    /// can have closed since the candidates were listed [m]; `at_rest` no time has passed.
+    ///
+    /// Answers with the drag's power [W] and the largest square of the distance of any particle from
+    /// where it was listed [m²]; each wall's force on the particles is left in its place.
+    fn forces_and_kick(&mut self, closed: f64, at_rest: bool, onwards: bool) -> (f64, f64) {
         self.walls_now.clear();
         for (wall, state) in self.walls.iter().zip(&self.wall_states) {
             let motion = if at_rest { state.motion_at_rest(wall) } else { state.motion_now(wall) };
             self.walls_now.push(motion);
         }
-        let particles = &mut self.particles;
-        let moving = Moving {
-            radius: &particles.radius,
-            mass: &particles.mass,
-            position: &particles.position,
-            velocity_mid: &particles.velocity,
-            velocity: &particles.velocity_predicted,
-            spin_mid: &particles.spin,
-            spin: &particles.spin_predicted,
+        let time_step = if at_rest { 0.0 } else { self.time_step };
+        let advance = Advance {
+            closed,
+            time_step,
+            images: self.domain.images(),
+            ledger: self.accounting,
+            instructions: self.instructions,
         };
-        let images = self.domain.images();
-        self.contacts.sweep(moving, images, &self.walls_now, advance, &self.team);
+        let columns = Columns::of(&mut self.particles, self.skin.listed());
+        let (instructions, background) = (self.instructions, &self.background);
+        let outcomes = Shared::new(&mut self.outcomes);
+        self.contacts.sweep(
+            columns.moving(),
+            &self.walls_now,
+            &advance,
+            &self.team,
+            |number, rows, loads| {
+                // SAFETY: each piece is finished once, and nobody reads its rows any more.
+                unsafe {
+                    let outcome = outcomes.get_mut(number);
+                    let half = 0.5 * time_step;
+                    outcome.power =
+                        instructions.run(Kick::new(columns, rows.clone(), loads, background, half));
+                    if onwards {
+                        outcome.farthest = instructions.run(KickAndDrift::new(columns, rows, time_step));
+                    }
+                }
+            },
+        );
         self.on_particles.fill(Vector3::zero());
         self.contacts.add_wall_forces(&mut self.on_particles);
-        collect_and_kick(particles, &self.contacts, &self.background, half, &self.team)
+        let power = self.outcomes.iter().map(|outcome| outcome.power).sum();
+        (power, farthest(&self.outcomes))
     }
 
     /// Forces of the present state, without a step having led here; switches nothing in memory but
     /// what the laws themselves would.
     fn evaluate_at_rest(&mut self) {
-        self.particles.velocity_predicted.clone_from(&self.particles.velocity);
-        self.particles.spin_predicted.clone_from(&self.particles.spin);
+        let particles = &mut self.particles;
+        for (predicted, now) in particles.velocity_predicted.iter_mut().zip(&particles.velocity) {
+            predicted.vector = now.vector;
+        }
+        for (predicted, now) in particles.spin_predicted.iter_mut().zip(&particles.spin) {
+            predicted.vector = now.vector;
+        }
         // No block is passed over: whatever was switched may act at once.
-        let advance = Advance { closed: f64::INFINITY, time_step: 0.0 };
-        let background_power = self.forces_and_kick(advance, 0.0, true);
+        let (background_power, _) = self.forces_and_kick(f64::INFINITY, true, false);
         self.running.take_in(self.contacts.energies(), background_power, 0.0);
         for (state, &force) in self.wall_states.iter_mut().zip(&self.on_particles) {
             state.force = -force;
@@ -253,23 +333,30 @@ impl Simulation {
     /// Puts the particles into cell order and lists all candidates within reach and skin.
     fn rebuild(&mut self, memory: &MemoryStore) {
         let gravity = self.background.gravity;
-        for (position, mass) in self.particles.position.iter_mut().zip(&self.particles.mass) {
-            let wrapped = self.domain.wrapped(*position);
+        for (place, mass) in self.particles.place.iter_mut().zip(&self.particles.mass) {
+            let wrapped = self.domain.wrapped(place.vector);
             // Falling through a periodic boundary is falling on: the potential must not jump.
-            self.running.gravity_wrapped += mass * gravity.dot(wrapped - *position);
-            *position = wrapped;
+            self.running.gravity_wrapped += mass * gravity.dot(wrapped - place.vector);
+            place.vector = wrapped;
         }
-        let (grid, order) = CellGrid::sort(&self.domain, &self.particles.position, self.search_radius());
+        let margin = self.interactions.reach() + self.skin.thickness;
+        let positions: Vec<Vector3> = self.particles.positions().iter().collect();
+        let (grid, order) = CellGrid::sort(&self.domain, &positions, &self.particles.radius, margin);
         self.particles.reorder(&order);
+        let positions: Vec<Vector3> = self.particles.positions().iter().collect();
         let around = Surroundings {
             particles: &self.particles,
+            positions: &positions,
+            materials: &self.materials,
             interactions: &self.interactions,
             walls: &self.walls,
             images: self.domain.images(),
             skin: self.skin.thickness,
         };
-        self.contacts.rebuild(around, &grid, memory);
-        self.skin.renew(&self.particles.position, self.walls.iter().map(Wall::offset));
+        self.contacts.rebuild(&around, &grid, memory, &self.team);
+        self.outcomes.clear();
+        self.outcomes.resize(self.contacts.pieces().len(), Outcome::default());
+        self.skin.renew(&self.particles.place, self.walls.iter().map(Wall::offset));
     }
 
     /// The area over which a wall's force is spread [m²], where it is known.
@@ -335,7 +422,8 @@ impl Simulation {
 
     /// Memory of particles, candidates and contact memory [byte].
     pub fn memory_size(&self) -> usize {
-        self.particles.memory_size() + self.contacts.memory_size()
+        // The skin keeps one more quad for each particle.
+        self.particles.len() * (Particles::BYTES + size_of::<Quad>()) + self.contacts.memory_size()
     }
 
     /// Candidate contacts in the list.
@@ -347,9 +435,9 @@ impl Simulation {
     pub fn threads(&self) -> usize {
         self.team.threads()
     }
+}
 
-    /// The threads that do the work: see [`Team::run`].
-    pub fn team(&self) -> &Team {
-        &self.team
-    }
+/// The largest of the pieces' squares of distances [m²].
+fn farthest(outcomes: &[Outcome]) -> f64 {
+    outcomes.iter().map(|outcome| outcome.farthest).fold(0.0, f64::max)
 }

@@ -1,7 +1,7 @@
 //! What can be seen of a simulation: the ledger and the contacts.
 
 use super::Simulation;
-use crate::contacts::{ContactView, Moving, Partner, Views, view_contacts};
+use crate::contacts::{ContactView, Partner, Views, view_contacts};
 use crate::ledger::Ledger;
 
 impl Simulation {
@@ -11,10 +11,10 @@ impl Simulation {
         let (mut translation, mut rotation, mut discretisation) = (0.0, 0.0, 0.0);
         for row in 0..particles.len() {
             let (mass, inertia) = (particles.mass[row], particles.inertia(row));
-            translation += 0.5 * mass * particles.velocity[row].norm_squared();
-            rotation += 0.5 * inertia * particles.spin[row].norm_squared();
-            discretisation +=
-                particles.force[row].norm_squared() / mass + particles.torque[row].norm_squared() / inertia;
+            translation += 0.5 * mass * particles.velocity[row].vector.norm_squared();
+            rotation += 0.5 * inertia * particles.spin[row].vector.norm_squared();
+            discretisation += particles.force[row].vector.norm_squared() / mass
+                + particles.torque[row].vector.norm_squared() / inertia;
         }
         let held = self.running.contacts;
         let mut ledger = Ledger {
@@ -49,23 +49,13 @@ impl Simulation {
 
     /// Hands every contact that acts to `see`, pairs first, then walls.
     pub fn for_each_contact(&self, see: &mut dyn FnMut(&ContactView)) {
-        let particles = &self.particles;
-        let moving = Moving {
-            radius: &particles.radius,
-            mass: &particles.mass,
-            position: &particles.position,
-            velocity_mid: &particles.velocity,
-            velocity: &particles.velocity,
-            spin_mid: &particles.spin,
-            spin: &particles.spin,
-        };
         for group in self.contacts.groups() {
             let wall = match group.partner {
                 Partner::Particle => None,
                 Partner::Wall(place) => Some(self.wall_states[place].motion_at_rest(&self.walls[place])),
             };
-            let (ids, images) = (&particles.id, self.domain.images());
-            view_contacts(Views { group, moving, ids, images, wall }, see);
+            let (particles, images) = (&self.particles, self.domain.images());
+            view_contacts(Views { group, particles, images, wall }, see);
         }
     }
 }

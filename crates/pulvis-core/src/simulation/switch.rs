@@ -1,5 +1,7 @@
 //! What can be changed while a simulation runs.
 
+use pulvis_math::InstructionSet;
+
 use super::{SetupError, Simulation};
 use crate::background::Background;
 use crate::contacts::Interactions;
@@ -27,6 +29,12 @@ impl Simulation {
     pub fn set_threads(&mut self, threads: usize) -> Result<(), SetupError> {
         self.team = Team::of(threads).map_err(|_| SetupError::Threads(threads))?;
         Ok(())
+    }
+
+    /// Sets the instructions that the loops use, by default the widest that the processor has; the
+    /// results are the same for all.
+    pub fn set_instructions(&mut self, instructions: InstructionSet) {
+        self.instructions = instructions;
     }
 
     /// Sets another gravity and drag.

@@ -116,8 +116,7 @@ pub fn run(
     run.simulation
         .set_threads(threads)
         .map_err(|source| RunError::Switch { stage: scenario.stages[0].name.clone(), source })?;
-    let team = run.simulation.team().clone();
-    let stages = team.run(|| run.stages(stop, watch))?;
+    let stages = run.stages(stop, watch)?;
     run.finish(stages, folder.clone())
 }
 

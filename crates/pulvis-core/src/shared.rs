@@ -1,0 +1,65 @@
+//! Memory that several threads work on at the same time, each in its own part.
+
+use std::marker::PhantomData;
+use std::ops::Range;
+
+/// A slice whose parts are handed to different threads. Who takes a part must know that nobody else
+/// writes it meanwhile.
+#[derive(Debug)]
+pub(crate) struct Shared<'a, T> {
+    start: *mut T,
+    length: usize,
+    slice: PhantomData<&'a mut [T]>,
+}
+
+impl<T> Clone for Shared<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Shared<'_, T> {}
+
+// SAFETY: hands out references to `T` on any thread, by functions whose callers vouch for their being
+// no conflicts.
+unsafe impl<T: Send> Send for Shared<'_, T> {}
+// SAFETY: as above.
+unsafe impl<T: Send> Sync for Shared<'_, T> {}
+
+impl<'a, T> Shared<'a, T> {
+    pub(crate) fn new(slice: &'a mut [T]) -> Self {
+        Self { start: slice.as_mut_ptr(), length: slice.len(), slice: PhantomData }
+    }
+
+    /// One item, for reading.
+    ///
+    /// # Safety
+    /// `place` lies within the slice, and nobody writes the item while the reference lives.
+    #[inline(always)]
+    pub(crate) unsafe fn get(&self, place: usize) -> &'a T {
+        debug_assert!(place < self.length);
+        // SAFETY: the caller's.
+        unsafe { &*self.start.add(place) }
+    }
+
+    /// One item, for writing.
+    ///
+    /// # Safety
+    /// `place` lies within the slice, and nobody else uses the item while the reference lives.
+    #[inline(always)]
+    pub(crate) unsafe fn get_mut(&self, place: usize) -> &'a mut T {
+        debug_assert!(place < self.length);
+        // SAFETY: the caller's.
+        unsafe { &mut *self.start.add(place) }
+    }
+
+    /// A range of items, for writing.
+    ///
+    /// # Safety
+    /// Nobody else uses these items while the reference lives.
+    pub(crate) unsafe fn range_mut(&self, range: Range<usize>) -> &'a mut [T] {
+        assert!(range.start <= range.end && range.end <= self.length);
+        // SAFETY: within the slice; the rest is the caller's.
+        unsafe { std::slice::from_raw_parts_mut(self.start.add(range.start), range.len()) }
+    }
+}
