@@ -59,7 +59,8 @@ impl ContactTable {
         // For each pair of materials and each class of gaps, the candidates in cell order.
         let mut listed: Vec<[Vec<(u32, u32, f64)>; GAP_CLASSES.len()]> =
             vec![Default::default(); interactions.groups()];
-        grid.for_each_pair(|one, other| {
+        let all = 0..particles.len() as u32;
+        grid.for_each_pair_of(all, &particles.position, &particles.radius, |one, other| {
             let (i, j) = (one as usize, other as usize);
             let place = interactions.group(particles.material[i], particles.material[j]);
             let Some(model) = interactions.model(place) else { return };

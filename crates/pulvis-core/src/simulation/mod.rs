@@ -259,7 +259,9 @@ impl Simulation {
             self.running.gravity_wrapped += mass * gravity.dot(wrapped - *position);
             *position = wrapped;
         }
-        let (grid, order) = CellGrid::sort(&self.domain, &self.particles.position, self.search_radius());
+        let margin = self.interactions.reach() + self.skin.thickness;
+        let Particles { position, radius, .. } = &self.particles;
+        let (grid, order) = CellGrid::sort(&self.domain, position, radius, margin);
         self.particles.reorder(&order);
         let around = Surroundings {
             particles: &self.particles,
