@@ -29,6 +29,20 @@ pub(super) struct Level {
 /// Places of cells along each axis: the first and how many there are, around the end of periodic axes.
 pub(super) type Touched = [(u32, u32); 3];
 
+/// What a place along an axis and those beside it add to the number of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside {
+    terms: [u32; 3],
+    count: usize,
+}
+
+impl Beside {
+    #[inline(always)]
+    pub(super) fn terms(&self) -> &[u32] {
+        &self.terms[..self.count]
+    }
+}
+
 /// Cells per particle at the most, those included that are there only to fill bricks up: fragments
 /// that fly apart must not make the grid grow with the volume that they span.
 const CELLS_PER_PARTICLE: u64 = 8;
@@ -102,17 +116,10 @@ impl Level {
         })
     }
 
-    /// Number of the cell that a centre [m] is in.
+    /// Number of the cell at a place along each axis.
     #[inline(always)]
-    pub(super) fn cell_at(&self, position: Vector3) -> u32 {
-        let [x, y, z] = self.places_at(position);
-        self.first_cell + self.term(0, x) + self.term(1, y) + self.term(2, z)
-    }
-
-    /// What a place along an axis adds to the number of a cell.
-    #[inline(always)]
-    pub(super) fn term(&self, axis: usize, place: u32) -> u32 {
-        self.bricks.term(axis, place)
+    pub(super) fn number(&self, [x, y, z]: [u32; 3]) -> u32 {
+        self.first_cell + self.bricks.term(0, x) + self.bricks.term(1, y) + self.bricks.term(2, z)
     }
 
     /// Number of the first cell.
@@ -121,17 +128,27 @@ impl Level {
         self.first_cell
     }
 
-    /// The given places and those beside them along each axis, each once: with few cells along a
-    /// periodic axis both directions lead to the same place.
-    pub(super) fn beside(&self, places: [u32; 3]) -> Touched {
-        [0, 1, 2].map(|axis| {
-            let (place, cells) = (places[axis], self.bricks.along(axis));
-            if self.periodic[axis] {
-                return if cells <= 3 { (0, cells) } else { ((place + cells - 1) % cells, 3) };
-            }
+    /// A place along an axis and those beside it, each once: with few cells along a periodic axis both
+    /// directions lead to the same place.
+    #[inline(always)]
+    pub(super) fn beside(&self, axis: usize, place: u32) -> Beside {
+        let cells = self.bricks.along(axis);
+        let (places, count) = if 0 < place && place + 1 < cells {
+            ([place - 1, place, place + 1], 3)
+        } else if cells <= 3 && self.periodic[axis] {
+            ([0, 1, 2], cells)
+        } else if self.periodic[axis] {
+            let (before, after) = (place.checked_sub(1), place + 1);
+            ([before.unwrap_or(cells - 1), place, if after < cells { after } else { 0 }], 3)
+        } else {
             let first = place.saturating_sub(1);
-            (first, (place + 2).min(cells) - first)
-        })
+            ([first, first + 1, 0], cells.min(2))
+        };
+        let mut terms = [0; 3];
+        for (term, place) in terms.iter_mut().zip(places).take(count as usize) {
+            *term = self.bricks.term(axis, place);
+        }
+        Beside { terms, count: count as usize }
     }
 
     /// Cells that may hold centres less than `reach` [m] away from `position` along each axis; none

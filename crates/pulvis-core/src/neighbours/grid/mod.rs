@@ -46,7 +46,10 @@ impl CellGrid {
             let members = || classes.members(place, positions);
             levels.push(Level::new(domain, &classes.list[place], members, margin, (first_cell, first_row)));
         }
-        let number = |(&position, &class): (&Vector3, &u8)| levels[usize::from(class)].cell_at(position);
+        let number = |(&position, &class): (&Vector3, &u8)| {
+            let level = &levels[usize::from(class)];
+            level.number(level.places_at(position))
+        };
         let cells: Vec<u32> = positions.iter().zip(&classes.of_row).map(number).collect();
         let count = levels.last().map_or(0, Level::end_of_cells);
         let (starts, order) = counting_sort(&cells, count);

@@ -7,36 +7,19 @@ use pulvis_math::Vector3;
 use super::CellGrid;
 use super::level::{Level, Touched};
 
-/// Rows that are candidates, as stretches of rows.
-#[derive(Clone, Debug, Default)]
-struct Runs {
-    list: Vec<(u32, u32)>,
-    /// The cells that they are from, if this is a coarser level's.
-    touched: Option<Touched>,
+/// Candidates in the own and in the adjacent cells, as stretches of rows.
+struct Adjacent {
+    /// What comes later in the own cell, then what is in later cells.
+    runs: [(u32, u32); 27],
+    count: usize,
 }
 
-impl Runs {
-    /// Adds the rows of a cell; those that follow on the last cell's, or on the first's, lengthen its
-    /// stretch.
-    #[inline(always)]
-    fn add(&mut self, (start, end): (u32, u32)) {
-        if start == end {
-            return;
-        }
-        if let Some(last) = self.list.last_mut()
-            && last.1 == start
-        {
-            last.1 = end;
-            return;
-        }
-        if let Some(first) = self.list.first_mut()
-            && first.1 == start
-        {
-            first.1 = end;
-            return;
-        }
-        self.list.push((start, end));
-    }
+/// Candidates in a coarser level, as stretches of rows.
+#[derive(Clone, Debug, Default)]
+struct Coarser {
+    runs: Vec<(u32, u32)>,
+    /// The cells that they are in.
+    touched: Option<Touched>,
 }
 
 impl CellGrid {
@@ -53,22 +36,22 @@ impl CellGrid {
     ) {
         for (place, level) in self.levels.iter().enumerate() {
             let coarser = &self.levels[place + 1..];
-            // The stretches of this level and of each coarser one.
-            let mut own = Runs::default();
-            let mut others = vec![Runs::default(); coarser.len()];
+            let mut own = Adjacent { runs: [(0, 0); 27], count: 1 };
+            let mut others = vec![Coarser::default(); coarser.len()];
             let mut row = rows.start.max(level.rows.start);
             let end = rows.end.min(level.rows.end);
             while row < end {
                 let places = level.places_at(positions[row as usize]);
-                let end_of_cell = self.list_later(level, places, &mut own);
+                let end_of_cell = self.list_adjacent(level, places, &mut own);
                 for one in row..end_of_cell.clamp(row + 1, end) {
                     let (position, radius) = (positions[one as usize], radii[one as usize]);
-                    for (runs, coarse) in others.iter_mut().zip(coarser) {
-                        self.list_touched(coarse, position, radius, runs);
+                    for (other, coarse) in others.iter_mut().zip(coarser) {
+                        self.list_touched(coarse, position, radius, other);
                     }
-                    own.list[0].0 = one + 1;
-                    for runs in std::iter::once(&own).chain(&others) {
-                        for &(start, end) in &runs.list {
+                    own.runs[0].0 = one + 1;
+                    let coarser_runs = others.iter().map(|other| &other.runs[..]);
+                    for runs in std::iter::once(&own.runs[..own.count]).chain(coarser_runs) {
+                        for &(start, end) in runs {
                             for other in start..end {
                                 see(one, other);
                             }
@@ -82,54 +65,63 @@ impl CellGrid {
 
     /// Lists the rows of the cell at `places`, first, and of the cells beside it that come later.
     /// Answers with the end of the cell's own rows.
-    fn list_later(&self, level: &Level, places: [u32; 3], runs: &mut Runs) -> u32 {
-        let number =
-            |[x, y, z]: [u32; 3]| level.first_cell() + level.term(0, x) + level.term(1, y) + level.term(2, z);
-        let cell = number(places);
+    #[inline(always)]
+    fn list_adjacent(&self, level: &Level, places: [u32; 3], list: &mut Adjacent) -> u32 {
+        let cell = level.number(places);
         let own = self.rows_of(cell);
-        runs.list.clear();
-        runs.list.push(own);
-        self.for_each_cell(level, level.beside(places), |other| {
-            if other > cell {
-                runs.add(self.rows_of(other));
+        let beside = [0, 1, 2].map(|axis| level.beside(axis, places[axis]));
+        // Which cells come later and hold anything follows no pattern that a processor could learn:
+        // every cell is written down, and what is not wanted or goes on where the last stretch ends
+        // takes no new place.
+        let mut last = own;
+        let mut count = 0;
+        list.runs[0] = own;
+        for &z in beside[2].terms() {
+            for &y in beside[1].terms() {
+                for &x in beside[0].terms() {
+                    let other = level.first_cell() + z + y + x;
+                    let (start, end) = self.rows_of(other);
+                    let wanted = (other > cell) & (start < end);
+                    let goes_on = start == last.1;
+                    count += usize::from(wanted & !goes_on);
+                    last.0 = if wanted & !goes_on { start } else { last.0 };
+                    last.1 = if wanted { end } else { last.1 };
+                    list.runs[count] = last;
+                }
             }
-        });
+        }
+        list.count = count + 1;
         own.1
     }
 
     /// Lists the rows of a coarser level within reach of a centre [m] of a smaller particle of the
     /// given radius [m].
     #[inline(always)]
-    fn list_touched(&self, coarse: &Level, position: Vector3, radius: f64, runs: &mut Runs) {
+    fn list_touched(&self, coarse: &Level, position: Vector3, radius: f64, list: &mut Coarser) {
         let touched = coarse.touched(position, radius + coarse.largest + self.margin);
         // Small particles that follow each other are near each other: mostly nothing has changed.
-        if touched == runs.touched {
-            return;
-        }
-        runs.touched = touched;
-        self.list_cells(coarse, runs);
-    }
-
-    fn list_cells(&self, level: &Level, runs: &mut Runs) {
-        runs.list.clear();
-        if let Some(touched) = runs.touched {
-            self.for_each_cell(level, touched, |cell| runs.add(self.rows_of(cell)));
+        if touched != list.touched {
+            list.touched = touched;
+            self.list_cells(coarse, list);
         }
     }
 
-    /// Calls `visit` with the number of each of the cells.
-    #[inline(always)]
-    fn for_each_cell(&self, level: &Level, touched: Touched, mut visit: impl FnMut(u32)) {
-        let terms = |axis: usize| {
-            let (first, count) = touched[axis];
-            let cells = level.along(axis);
-            (first..first + count)
-                .map(move |place| level.term(axis, if place < cells { place } else { place - cells }))
+    fn list_cells(&self, level: &Level, list: &mut Coarser) {
+        list.runs.clear();
+        let Some(touched) = list.touched else { return };
+        let places = |axis: usize| {
+            let ((first, count), cells) = (touched[axis], level.along(axis));
+            (first..first + count).map(move |place| if place < cells { place } else { place - cells })
         };
-        for z in terms(2) {
-            for y in terms(1) {
-                for x in terms(0) {
-                    visit(level.first_cell() + z + y + x);
+        for z in places(2) {
+            for y in places(1) {
+                for x in places(0) {
+                    let (start, end) = self.rows_of(level.number([x, y, z]));
+                    match list.runs.last_mut() {
+                        _ if start == end => {}
+                        Some(last) if last.1 == start => last.1 = end,
+                        _ => list.runs.push((start, end)),
+                    }
                 }
             }
         }
