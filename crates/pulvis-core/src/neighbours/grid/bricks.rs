@@ -1,0 +1,129 @@
+//! The order of the cells of a level.
+
+/// Cells are gathered in bricks of up to eight cells along each edge, so that what is near in space is
+/// near in order and a stretch of rows is a compact body: bricks follow each other line by line, and
+/// the cells of a brick in Morton order.
+///
+/// Either part of a cell's number is a sum of one term for each axis; so are numbers as a whole, and
+/// the terms come from tables.
+#[derive(Clone, Debug)]
+pub(super) struct Bricks {
+    terms: [Vec<u32>; 3],
+    /// Cells of all bricks, also of those that are there only to fill bricks up.
+    total: u32,
+}
+
+/// Edge of the largest bricks: two to this power.
+const MOST_BITS: u32 = 3;
+
+impl Bricks {
+    /// Bricks that hold so many cells along each axis; their product must be below 2³².
+    pub(super) fn new(cells: [u32; 3]) -> Self {
+        let bits = cells.map(brick_bits);
+        let brick = 1_u32 << bits.iter().sum::<u32>();
+        let mut stride = brick;
+        let mut terms: [Vec<u32>; 3] = Default::default();
+        for axis in 0..3 {
+            let mask = (1 << bits[axis]) - 1;
+            let term = |cell: u32| (cell >> bits[axis]) * stride + spread(cell & mask, axis, bits);
+            terms[axis] = (0..cells[axis]).map(term).collect();
+            stride *= cells[axis].div_ceil(1 << bits[axis]);
+        }
+        Self { terms, total: stride }
+    }
+
+    /// Number of cells along an axis when bricks are filled up.
+    pub(super) fn padded(cells: f64) -> f64 {
+        let edge = f64::from(1_u32 << brick_bits(cells as u32));
+        (cells / edge).ceil() * edge
+    }
+
+    /// Number of cells in all bricks.
+    pub(super) fn total(&self) -> u32 {
+        self.total
+    }
+
+    /// Number of cells along an axis.
+    #[inline(always)]
+    pub(super) fn along(&self, axis: usize) -> u32 {
+        self.terms[axis].len() as u32
+    }
+
+    /// What a cell's place along an axis adds to its number.
+    #[inline(always)]
+    pub(super) fn term(&self, axis: usize, place: u32) -> u32 {
+        self.terms[axis][place as usize]
+    }
+}
+
+/// Edge of the bricks along an axis of so many cells, as a power of two: the largest for which
+/// filling bricks up adds no more than a third.
+fn brick_bits(cells: u32) -> u32 {
+    let few_more = |bits: &u32| {
+        let padded = u64::from(cells).next_multiple_of(1 << bits);
+        3 * padded <= 4 * u64::from(cells)
+    };
+    (0..=MOST_BITS).rev().find(few_more).unwrap_or(0)
+}
+
+/// The bits of a place along an axis, each moved to where it belongs among those of all axes.
+fn spread(place: u32, axis: usize, bits: [u32; 3]) -> u32 {
+    let mut number = 0;
+    let mut position = 0;
+    for bit in 0..MOST_BITS {
+        for (other, &count) in bits.iter().enumerate() {
+            if bit < count {
+                if other == axis {
+                    number |= (place >> bit & 1) << position;
+                }
+                position += 1;
+            }
+        }
+    }
+    number
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(cells: [u32; 3]) -> Vec<u32> {
+        let bricks = Bricks::new(cells);
+        let mut numbers = Vec::new();
+        for z in 0..cells[2] {
+            for y in 0..cells[1] {
+                numbers
+                    .extend((0..cells[0]).map(|x| bricks.term(0, x) + bricks.term(1, y) + bricks.term(2, z)));
+            }
+        }
+        numbers
+    }
+
+    #[test]
+    fn every_cell_has_a_number_of_its_own() {
+        for cells in [[1, 1, 1], [2, 3, 5], [9, 8, 1], [17, 1, 30], [20, 11, 7], [1, 1, 1000]] {
+            let mut found = numbers(cells);
+            found.sort_unstable();
+            found.dedup();
+            assert_eq!(found.len() as u32, cells.iter().product::<u32>());
+            assert!(found.iter().all(|&number| number < Bricks::new(cells).total()));
+        }
+    }
+
+    #[test]
+    fn filling_up_adds_little_and_is_counted() {
+        for cells in 1..100_u32 {
+            let padded = Bricks::padded(f64::from(cells));
+            assert!(padded >= f64::from(cells) && 3.0 * padded <= 4.0 * f64::from(cells));
+            assert_eq!(f64::from(Bricks::new([cells, 1, 1]).total()), padded);
+        }
+    }
+
+    #[test]
+    fn a_brick_is_a_cube_in_morton_order() {
+        let bricks = Bricks::new([16, 16, 16]);
+        assert_eq!((bricks.term(0, 1), bricks.term(1, 1), bricks.term(2, 1)), (1, 2, 4));
+        assert_eq!((bricks.term(0, 2), bricks.term(1, 2), bricks.term(2, 2)), (8, 16, 32));
+        assert_eq!((bricks.term(0, 8), bricks.term(1, 8), bricks.term(2, 8)), (512, 1024, 2048));
+    }
+}

@@ -1,0 +1,229 @@
+//! One level of the grid: where its cells are, and which of them a box touches.
+
+use std::ops::Range;
+
+use pulvis_math::Vector3;
+
+use super::bricks::Bricks;
+use super::classes::Class;
+use crate::domain::Domain;
+
+/// The cells of particles of like sizes. Particles beyond the outermost cells of an open axis belong
+/// to these: two that are near each other are still in the same or in adjacent cells.
+#[derive(Clone, Debug)]
+pub(super) struct Level {
+    /// Its rows.
+    pub(super) rows: Range<u32>,
+    /// Largest radius [m].
+    pub(super) largest: f64,
+    /// Number of its first cell among those of all levels.
+    first_cell: u32,
+    bricks: Bricks,
+    lower: [f64; 3],
+    inverse_width: [f64; 3],
+    periodic: [bool; 3],
+    /// The box around the centres [m], without end along periodic axes.
+    bounds: [[f64; 2]; 3],
+}
+
+/// Places of cells along each axis: the first and how many there are, around the end of periodic axes.
+pub(super) type Touched = [(u32, u32); 3];
+
+/// What a place along an axis and those beside it add to the number of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside {
+    terms: [u32; 3],
+    count: usize,
+}
+
+impl Beside {
+    #[inline(always)]
+    pub(super) fn terms(&self) -> &[u32] {
+        &self.terms[..self.count]
+    }
+}
+
+/// Cells per particle at the most, those included that are there only to fill bricks up: fragments
+/// that fly apart must not make the grid grow with the volume that they span.
+const CELLS_PER_PARTICLE: u64 = 8;
+/// So few cells are no burden.
+const FREE_CELLS: u64 = 64;
+/// Numbers of cells must fit into 32 bits, all levels taken together.
+const MOST_CELLS: u64 = 1 << 27;
+/// How many particles tell where most of them are.
+const SAMPLE: usize = 4096;
+
+impl Level {
+    /// The level of a class, with cells wide enough for pairs up to `margin` [m] beyond touching;
+    /// `members` are its centres [m], `first` its first cell and row.
+    pub(super) fn new<Members: Iterator<Item = Vector3>>(
+        domain: &Domain,
+        class: &Class,
+        members: impl Fn() -> Members,
+        margin: f64,
+        first: (u32, u32),
+    ) -> Self {
+        let periodic = [0, 1, 2].map(|axis| domain.period(axis).is_some());
+        let mut bounds = [0, 1, 2].map(|axis| [class.lower[axis], class.upper[axis]]);
+        for axis in (0..3).filter(|&axis| periodic[axis]) {
+            bounds[axis] = [domain.lower()[axis], domain.upper()[axis]];
+        }
+        let most = (CELLS_PER_PARTICLE * u64::from(class.count)).clamp(FREE_CELLS, MOST_CELLS) as f64;
+        let edge = 2.0 * class.largest + margin;
+        let mut spans = bounds;
+        let mut cells = cells_within(spans, edge, most);
+        if cells.is_none() {
+            let step = class.count as usize / SAMPLE + 1;
+            let sample: Vec<Vector3> = members().step_by(step).collect();
+            for axis in (0..3).filter(|&axis| !periodic[axis]) {
+                spans[axis] = crowded(&sample, axis, bounds[axis]);
+            }
+            cells = cells_within(spans, edge, most);
+        }
+        let cells = cells.unwrap_or_else(|| wider_cells_within(spans, edge, most));
+        let per_length = |axis: usize| {
+            let span = spans[axis][1] - spans[axis][0];
+            if span > 0.0 { f64::from(cells[axis]) / span } else { 0.0 }
+        };
+        for axis in (0..3).filter(|&axis| periodic[axis]) {
+            bounds[axis] = [f64::NEG_INFINITY, f64::INFINITY];
+        }
+        Self {
+            rows: first.1..first.1 + class.count,
+            largest: class.largest,
+            first_cell: first.0,
+            bricks: Bricks::new(cells),
+            lower: spans.map(|[lower, _]| lower),
+            inverse_width: [0, 1, 2].map(per_length),
+            periodic,
+            bounds,
+        }
+    }
+
+    /// One past the number of the last cell.
+    pub(super) fn end_of_cells(&self) -> u32 {
+        self.first_cell + self.bricks.total()
+    }
+
+    /// Place of the cell along each axis that a centre [m] is in.
+    #[inline(always)]
+    pub(super) fn places_at(&self, position: Vector3) -> [u32; 3] {
+        [0, 1, 2].map(|axis| {
+            // Conversion cuts off at zero what lies below; round-off may put a wrapped particle on the
+            // upper face.
+            let place = (position[axis] - self.lower[axis]) * self.inverse_width[axis];
+            (place as u32).min(self.bricks.along(axis) - 1)
+        })
+    }
+
+    /// Number of the cell at a place along each axis.
+    #[inline(always)]
+    pub(super) fn number(&self, [x, y, z]: [u32; 3]) -> u32 {
+        self.first_cell + self.bricks.term(0, x) + self.bricks.term(1, y) + self.bricks.term(2, z)
+    }
+
+    /// Number of the first cell.
+    #[inline(always)]
+    pub(super) fn first_cell(&self) -> u32 {
+        self.first_cell
+    }
+
+    /// A place along an axis and those beside it, each once: with few cells along a periodic axis both
+    /// directions lead to the same place.
+    #[inline(always)]
+    pub(super) fn beside(&self, axis: usize, place: u32) -> Beside {
+        let cells = self.bricks.along(axis);
+        let (places, count) = if 0 < place && place + 1 < cells {
+            ([place - 1, place, place + 1], 3)
+        } else if cells <= 3 && self.periodic[axis] {
+            ([0, 1, 2], cells)
+        } else if self.periodic[axis] {
+            let (before, after) = (place.checked_sub(1), place + 1);
+            ([before.unwrap_or(cells - 1), place, if after < cells { after } else { 0 }], 3)
+        } else {
+            let first = place.saturating_sub(1);
+            ([first, first + 1, 0], cells.min(2))
+        };
+        let mut terms = [0; 3];
+        for (term, place) in terms.iter_mut().zip(places).take(count as usize) {
+            *term = self.bricks.term(axis, place);
+        }
+        Beside { terms, count: count as usize }
+    }
+
+    /// Cells that may hold centres less than `reach` [m] away from `position` along each axis; none
+    /// where there cannot be any.
+    #[inline(always)]
+    pub(super) fn touched(&self, position: Vector3, reach: f64) -> Option<Touched> {
+        let mut touched = [(0, 0); 3];
+        for axis in 0..3 {
+            let (low, high) = (position[axis] - reach, position[axis] + reach);
+            if high < self.bounds[axis][0] || low > self.bounds[axis][1] {
+                return None;
+            }
+            let place = |at: f64| floor((at - self.lower[axis]) * self.inverse_width[axis]);
+            let (first, last) = (place(low), place(high));
+            let cells = i64::from(self.bricks.along(axis));
+            touched[axis] = if !self.periodic[axis] {
+                let (first, last) = (first.clamp(0, cells - 1), last.clamp(0, cells - 1));
+                (first as u32, (last - first + 1) as u32)
+            } else if last.saturating_sub(first) >= cells - 1 {
+                (0, cells as u32)
+            } else {
+                // Most are within already; a division takes its time.
+                let within = if (0..cells).contains(&first) { first } else { first.rem_euclid(cells) };
+                (within as u32, (last - first + 1) as u32)
+            };
+        }
+        Some(touched)
+    }
+
+    /// Number of cells along an axis.
+    #[inline(always)]
+    pub(super) fn along(&self, axis: usize) -> u32 {
+        self.bricks.along(axis)
+    }
+}
+
+/// Not the library's: without the instruction for it, that is a call.
+#[inline(always)]
+fn floor(value: f64) -> i64 {
+    let cut = value as i64;
+    cut.saturating_sub(i64::from(cut as f64 > value))
+}
+
+/// Numbers of cells along each axis if they are at least `width` [m] wide, unless there would be more
+/// than `most` of them.
+fn cells_within(spans: [[f64; 2]; 3], width: f64, most: f64) -> Option<[u32; 3]> {
+    // What is no number counts as one cell.
+    let along = |widths: f64| if widths >= 1.0 { widths.min(1e9).floor() } else { 1.0 };
+    let cells = spans.map(|[lower, upper]| along((upper - lower) / width));
+    let padded = cells.map(Bricks::padded);
+    (padded[0] * padded[1] * padded[2] <= most).then(|| cells.map(|count| count as u32))
+}
+
+/// Numbers of cells along each axis, at least `width` [m] wide and as much wider as it takes for no
+/// more than `most` of them.
+fn wider_cells_within(spans: [[f64; 2]; 3], width: f64, most: f64) -> [u32; 3] {
+    let longest = spans.iter().map(|[lower, upper]| upper - lower).fold(0.0, f64::max);
+    // Along the longest side alone there must not be too many. What has no end gets one cell.
+    let mut width = width.max(longest / most);
+    while width.is_finite() {
+        if let Some(cells) = cells_within(spans, width, most) {
+            return cells;
+        }
+        width *= 1.1;
+    }
+    [1; 3]
+}
+
+/// The interval along an axis [m] within `bounds` where nearly all of the `sample` are: cells are not
+/// to be wasted on the way to a few that have flown off.
+fn crowded(sample: &[Vector3], axis: usize, bounds: [f64; 2]) -> [f64; 2] {
+    let mut along: Vec<f64> = sample.iter().map(|position| position[axis]).collect();
+    along.sort_unstable_by(f64::total_cmp);
+    let few = along.len() / 50;
+    let (Some(low), Some(high)) = (along.get(few), along.iter().nth_back(few)) else { return bounds };
+    let beyond = 0.2 * (high - low);
+    [bounds[0].max(low - beyond), bounds[1].min(high + beyond)]
+}

@@ -1,0 +1,87 @@
+//! Linked cells in levels, one for each class of sizes, by counting sort.
+
+mod bricks;
+mod classes;
+mod level;
+mod search;
+#[cfg(test)]
+mod tests;
+
+use pulvis_math::Vector3;
+
+use self::classes::Classes;
+use self::level::Level;
+use crate::domain::Domain;
+
+/// Particles sorted into levels by size, finest first, and in each level into cells that are wide
+/// enough for its largest particle.
+///
+/// Cells for the largest of all would each hold a crowd of small ones, all of them candidates of each
+/// other. Here a pair of unlike sizes is found from the smaller side, which looks into the few cells of
+/// the coarser level within its reach.
+#[derive(Clone, Debug)]
+pub(crate) struct CellGrid {
+    levels: Vec<Level>,
+    /// First row of each cell, level by level, and the number of rows at the end.
+    starts: Vec<u32>,
+    /// How far beyond touching pairs are looked for [m].
+    margin: f64,
+}
+
+impl CellGrid {
+    /// Sorts rows by level, then by cell, then by row. Pairs will be found up to `margin` [m] beyond
+    /// touching: the reach of attraction and the skin. Positions [m] are wrapped into the domain, radii
+    /// in m. Answers also with the order: row k is to become what was row `order[k]`.
+    pub(crate) fn sort(
+        domain: &Domain,
+        positions: &[Vector3],
+        radii: &[f64],
+        margin: f64,
+    ) -> (Self, Vec<u32>) {
+        let classes = Classes::of(positions, radii, margin);
+        let mut levels: Vec<Level> = Vec::with_capacity(classes.list.len());
+        for place in 0..classes.list.len() {
+            let (first_cell, first_row) =
+                levels.last().map_or((0, 0), |finer| (finer.end_of_cells(), finer.rows.end));
+            let members = || classes.members(place, positions);
+            levels.push(Level::new(domain, &classes.list[place], members, margin, (first_cell, first_row)));
+        }
+        let number = |(&position, &class): (&Vector3, &u8)| {
+            let level = &levels[usize::from(class)];
+            level.number(level.places_at(position))
+        };
+        let cells: Vec<u32> = positions.iter().zip(&classes.of_row).map(number).collect();
+        let count = levels.last().map_or(0, Level::end_of_cells);
+        let (starts, order) = counting_sort(&cells, count);
+        (Self { levels, starts, margin }, order)
+    }
+
+    /// The rows of a cell.
+    #[inline(always)]
+    fn rows_of(&self, cell: u32) -> (u32, u32) {
+        let cell = cell as usize;
+        (self.starts[cell], self.starts[cell + 1])
+    }
+}
+
+/// First place of each of `count` cells, and one more at the end; and the rows in the order of their
+/// cells, by row within a cell.
+fn counting_sort(cells: &[u32], count: u32) -> (Vec<u32>, Vec<u32>) {
+    // Counts are kept two places later, so that the next free places, which end up as the places where
+    // the next cells begin, can be kept one place later: no second array is needed.
+    let mut starts = vec![0_u32; count as usize + 2];
+    for &cell in cells {
+        starts[cell as usize + 2] += 1;
+    }
+    for place in 2..starts.len() {
+        starts[place] += starts[place - 1];
+    }
+    let mut order = vec![0; cells.len()];
+    for (row, &cell) in cells.iter().enumerate() {
+        let place = &mut starts[cell as usize + 1];
+        order[*place as usize] = row as u32;
+        *place += 1;
+    }
+    starts.pop();
+    (starts, order)
+}

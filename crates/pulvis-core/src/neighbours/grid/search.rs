@@ -1,0 +1,129 @@
+//! Candidate pairs.
+
+use std::ops::Range;
+
+use pulvis_math::Vector3;
+
+use super::CellGrid;
+use super::level::{Level, Touched};
+
+/// Candidates in the own and in the adjacent cells, as stretches of rows.
+struct Adjacent {
+    /// What comes later in the own cell, then what is in later cells.
+    runs: [(u32, u32); 27],
+    count: usize,
+}
+
+/// Candidates in a coarser level, as stretches of rows.
+#[derive(Clone, Debug, Default)]
+struct Coarser {
+    runs: Vec<(u32, u32)>,
+    /// The cells that they are in.
+    touched: Option<Touched>,
+}
+
+impl CellGrid {
+    /// Calls `see(one, other)` for every pair with `one` in `rows` and `one` < `other` whose centres
+    /// may be closer than the sum of their radii and the margin, each once over all rows; distances are
+    /// not checked. Positions [m] and radii [m] are those that were sorted, in the new order. The
+    /// pairs of a row and their order do not depend on the range that it is in.
+    pub(crate) fn for_each_pair_of(
+        &self,
+        rows: Range<u32>,
+        positions: &[Vector3],
+        radii: &[f64],
+        mut see: impl FnMut(u32, u32),
+    ) {
+        for (place, level) in self.levels.iter().enumerate() {
+            let coarser = &self.levels[place + 1..];
+            let mut own = Adjacent { runs: [(0, 0); 27], count: 1 };
+            let mut others = vec![Coarser::default(); coarser.len()];
+            let mut row = rows.start.max(level.rows.start);
+            let end = rows.end.min(level.rows.end);
+            while row < end {
+                let places = level.places_at(positions[row as usize]);
+                let end_of_cell = self.list_adjacent(level, places, &mut own);
+                for one in row..end_of_cell.clamp(row + 1, end) {
+                    let (position, radius) = (positions[one as usize], radii[one as usize]);
+                    for (other, coarse) in others.iter_mut().zip(coarser) {
+                        self.list_touched(coarse, position, radius, other);
+                    }
+                    own.runs[0].0 = one + 1;
+                    let coarser_runs = others.iter().map(|other| &other.runs[..]);
+                    for runs in std::iter::once(&own.runs[..own.count]).chain(coarser_runs) {
+                        for &(start, end) in runs {
+                            for other in start..end {
+                                see(one, other);
+                            }
+                        }
+                    }
+                }
+                row = end_of_cell.max(row + 1);
+            }
+        }
+    }
+
+    /// Lists the rows of the cell at `places`, first, and of the cells beside it that come later.
+    /// Answers with the end of the cell's own rows.
+    #[inline(always)]
+    fn list_adjacent(&self, level: &Level, places: [u32; 3], list: &mut Adjacent) -> u32 {
+        let cell = level.number(places);
+        let own = self.rows_of(cell);
+        let beside = [0, 1, 2].map(|axis| level.beside(axis, places[axis]));
+        // Which cells come later and hold anything follows no pattern that a processor could learn:
+        // every cell is written down, and what is not wanted or goes on where the last stretch ends
+        // takes no new place.
+        let mut last = own;
+        let mut count = 0;
+        list.runs[0] = own;
+        for &z in beside[2].terms() {
+            for &y in beside[1].terms() {
+                for &x in beside[0].terms() {
+                    let other = level.first_cell() + z + y + x;
+                    let (start, end) = self.rows_of(other);
+                    let wanted = (other > cell) & (start < end);
+                    let goes_on = start == last.1;
+                    count += usize::from(wanted & !goes_on);
+                    last.0 = if wanted & !goes_on { start } else { last.0 };
+                    last.1 = if wanted { end } else { last.1 };
+                    list.runs[count] = last;
+                }
+            }
+        }
+        list.count = count + 1;
+        own.1
+    }
+
+    /// Lists the rows of a coarser level within reach of a centre [m] of a smaller particle of the
+    /// given radius [m].
+    #[inline(always)]
+    fn list_touched(&self, coarse: &Level, position: Vector3, radius: f64, list: &mut Coarser) {
+        let touched = coarse.touched(position, radius + coarse.largest + self.margin);
+        // Small particles that follow each other are near each other: mostly nothing has changed.
+        if touched != list.touched {
+            list.touched = touched;
+            self.list_cells(coarse, list);
+        }
+    }
+
+    fn list_cells(&self, level: &Level, list: &mut Coarser) {
+        list.runs.clear();
+        let Some(touched) = list.touched else { return };
+        let places = |axis: usize| {
+            let ((first, count), cells) = (touched[axis], level.along(axis));
+            (first..first + count).map(move |place| if place < cells { place } else { place - cells })
+        };
+        for z in places(2) {
+            for y in places(1) {
+                for x in places(0) {
+                    let (start, end) = self.rows_of(level.number([x, y, z]));
+                    match list.runs.last_mut() {
+                        _ if start == end => {}
+                        Some(last) if last.1 == start => last.1 = end,
+                        _ => list.runs.push((start, end)),
+                    }
+                }
+            }
+        }
+    }
+}
