@@ -1,6 +1,6 @@
 //! The common spring-dashpot-slider of sliding, rolling and torsion.
 
-use pulvis_math::{Dimension, Real, Vector3};
+use pulvis_math::{Dimension, Mask, Real, Vector3};
 
 use super::{FrictionResponse, SpringMotion};
 use crate::catalogue::{InvalidParameter, LawEntry, Parameter, Range, Role, Values};
@@ -176,16 +176,20 @@ impl SpringSlider {
         let trial = before + motion.displacement;
         let damping = motion.velocity * gamma;
         let trial_force = -(trial * k) - damping;
-        let limit = R::splat(self.dynamic_coefficient) * motion.friction_reference;
         let static_limit = R::splat(self.static_coefficient) * motion.friction_reference;
-        let size = trial_force.norm();
-        let slides = size.gt(static_limit);
-        let force = trial_force * R::select(slides, limit / size, R::one());
-        // The spring has the length that gives the limited force; otherwise it would keep the
-        // length of the trial and pull backwards when the motion reverses.
-        let after = Vector3::select(slides, -(force + damping) * R::splat(1.0 / self.stiffness), trial);
-        *spring = after;
         let half = R::splat(0.5) * k;
+        let (mut force, mut after) = (trial_force, trial);
+        // Squares are compared: the root and the quotient are for contacts that slide.
+        let size_squared = trial_force.norm_squared();
+        let slides = size_squared.gt(static_limit * static_limit);
+        if slides.any() {
+            let limit = R::splat(self.dynamic_coefficient) * motion.friction_reference;
+            force = trial_force * R::select(slides, limit / size_squared.sqrt(), R::one());
+            // The spring has the length that gives the limited force; otherwise it would keep the
+            // length of the trial and pull backwards when the motion reverses.
+            after = Vector3::select(slides, -(force + damping) * R::splat(1.0 / self.stiffness), trial);
+        }
+        *spring = after;
         FrictionResponse {
             force,
             stored_energy: half * after.norm_squared(),
@@ -207,14 +211,17 @@ impl SpringSlider {
         let trial = before + motion.displacement;
         let damping = motion.velocity * gamma;
         let trial_force = -(trial * k) - damping;
-        let limit = R::splat(self.dynamic_coefficient) * motion.friction_reference;
         let static_limit = R::splat(self.static_coefficient) * motion.friction_reference;
-        let slides = trial_force.abs().gt(static_limit);
-        let signed_limit = R::select(trial_force.lt(R::zero()), -limit, limit);
-        let force = R::select(slides, signed_limit, trial_force);
-        let after = R::select(slides, -(force + damping) * R::splat(1.0 / self.stiffness), trial);
-        *spring = after;
         let half = R::splat(0.5) * k;
+        let (mut force, mut after) = (trial_force, trial);
+        let slides = trial_force.abs().gt(static_limit);
+        if slides.any() {
+            let limit = R::splat(self.dynamic_coefficient) * motion.friction_reference;
+            let signed_limit = R::select(trial_force.lt(R::zero()), -limit, limit);
+            force = R::select(slides, signed_limit, trial_force);
+            after = R::select(slides, -(force + damping) * R::splat(1.0 / self.stiffness), trial);
+        }
+        *spring = after;
         FrictionResponse {
             force,
             stored_energy: half * after * after,

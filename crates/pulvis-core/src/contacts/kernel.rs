@@ -2,7 +2,7 @@
 
 use multiversion::multiversion;
 use pulvis_contact::{
-    Composition, ContactEnergies, ContactResponse, NormalLaw, NormalLawVisitor, Pair, PairMotion,
+    Composition, ContactEnergies, ContactResponse, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance,
 };
 use pulvis_math::{Mask, Real, Vector3};
 
@@ -332,7 +332,11 @@ pub(crate) fn respond<N: NormalLaw, const FRICTION: bool>(
     columns: &mut [Lane],
 ) -> ContactResponse<Lane> {
     let mut memory = layout.load::<N::Memory<Lane>>(columns);
-    let answer = composition.respond::<Lane, N, FRICTION>(law, pair, motion, time_step, &mut memory);
+    let answer = if FRICTION {
+        composition.respond::<Lane, N, { resistance::ALL }>(law, pair, motion, time_step, &mut memory)
+    } else {
+        composition.respond::<Lane, N, { resistance::NONE }>(law, pair, motion, time_step, &mut memory)
+    };
     layout.store(&memory, columns);
     answer
 }
