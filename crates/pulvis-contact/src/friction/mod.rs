@@ -85,17 +85,18 @@ fn restored<R: Real>(spring: Vector3<R>, missing: R) -> Vector3<R> {
     let remaining = spring.norm_squared();
     // Up to t = 2⁻⁵³ the factor is 1 to the last digit: no division. No spring: no factor.
     let stretches = missing.abs().gt(remaining * R::splat(0.5 * f64::EPSILON)) & remaining.gt(R::zero());
-    if !stretches.any() {
-        return spring;
+    let mut factor = R::one();
+    if stretches.any() {
+        let t = missing / remaining;
+        // The next term, −5 t⁴/128, is below 2⁻⁵⁴.
+        let series = R::one() + t * (R::splat(0.5) + t * (R::splat(-0.125) + t * R::splat(0.0625)));
+        factor = R::select(stretches, series, factor);
+        let far = stretches & t.abs().gt(R::splat(SERIES_ENDS));
+        if far.any() {
+            factor = R::select(far, (R::one() + t).sqrt(), factor);
+        }
     }
-    let t = missing / remaining;
-    // The next term, −5 t⁴/128, is below 2⁻⁵⁴.
-    let mut factor = R::one() + t * (R::splat(0.5) + t * (R::splat(-0.125) + t * R::splat(0.0625)));
-    let far = stretches & t.abs().gt(R::splat(SERIES_ENDS));
-    if far.any() {
-        factor = R::select(far, (R::one() + t).sqrt(), factor);
-    }
-    spring * R::select(stretches, factor, R::one())
+    spring * factor
 }
 
 macro_rules! friction_laws {
