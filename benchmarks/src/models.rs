@@ -97,6 +97,6 @@ mod tests {
         let pair = Pair::spheres(mass, mass, 0.5e-3, 0.5e-3);
         let luding = model(LawChoice::Luding, 0.0, ConventionChoice::Own).unwrap();
         let dashpot = luding.composition.viscosity.largest_coefficient(&pair);
-        assert!((dashpot / (4000.0 * pair.reduced_mass) - 1.0).abs() < 1e-2);
+        assert!((dashpot / (4000.0 * pair.reduced_mass()) - 1.0).abs() < 1e-2);
     }
 }

@@ -1,6 +1,6 @@
 //! One sweep over the contacts, compiled for each instruction set that the engine chooses from.
 
-use pulvis_contact::{Composition, NormalLaw};
+use pulvis_contact::{Composition, NormalLaw, resistance};
 use pulvis_math::Real;
 
 use super::contacts::{Contacts, Store};
@@ -98,18 +98,26 @@ fn sweep_avx512<R: Real, N: NormalLaw>(sweep: Sweep<'_, R, N>, store: &mut Store
 
 #[inline(always)]
 fn sweep_with_options<R: Real, N: NormalLaw>(sweep: Sweep<'_, R, N>, store: &mut Store<R, N>, sweeps: usize) {
-    match (sweep.composition.has_friction(), sweep.ledger) {
-        (true, true) => sweep_contacts::<R, N, true, true>(sweep, store, sweeps),
-        (true, false) => sweep_contacts::<R, N, true, false>(sweep, store, sweeps),
-        (false, true) => sweep_contacts::<R, N, false, true>(sweep, store, sweeps),
-        (false, false) => sweep_contacts::<R, N, false, false>(sweep, store, sweeps),
+    match (sweep.composition.resistance_level(), sweep.ledger) {
+        (resistance::NONE, true) => sweep_contacts::<R, N, { resistance::NONE }, true>(sweep, store, sweeps),
+        (resistance::NONE, false) => {
+            sweep_contacts::<R, N, { resistance::NONE }, false>(sweep, store, sweeps)
+        }
+        (resistance::SLIDING, true) => {
+            sweep_contacts::<R, N, { resistance::SLIDING }, true>(sweep, store, sweeps)
+        }
+        (resistance::SLIDING, false) => {
+            sweep_contacts::<R, N, { resistance::SLIDING }, false>(sweep, store, sweeps)
+        }
+        (_, true) => sweep_contacts::<R, N, { resistance::ALL }, true>(sweep, store, sweeps),
+        (_, false) => sweep_contacts::<R, N, { resistance::ALL }, false>(sweep, store, sweeps),
     }
 }
 
 /// The law's text as the engine calls it. Forces are stored and energies summed, or else the compiler
 /// would leave them out.
 #[inline(always)]
-fn sweep_contacts<R: Real, N: NormalLaw, const FRICTION: bool, const LEDGER: bool>(
+fn sweep_contacts<R: Real, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(
     sweep: Sweep<'_, R, N>,
     store: &mut Store<R, N>,
     sweeps: usize,
@@ -122,7 +130,7 @@ fn sweep_contacts<R: Real, N: NormalLaw, const FRICTION: bool, const LEDGER: boo
         let motions = &contacts.motions[turn % 2];
         let each = motions.iter().zip(&contacts.pairs).zip(&mut store.memory).zip(&mut store.forces);
         for (((motion, pair), memory), forces) in each {
-            let answer = composition.respond::<R, N, FRICTION>(&law, pair, motion, 4e-6, memory);
+            let answer = composition.respond::<R, N, RESISTANCE>(&law, pair, motion, 4e-6, memory);
             *forces = [answer.force, answer.torque_i, answer.torque_j];
             if LEDGER {
                 energies += answer.energies;

@@ -41,7 +41,7 @@ impl<R: Real> Contacts<R> {
                 Vector3::new(along(0), along(1), along(2))
             };
             PairMotion {
-                normal: vector(|contact, _, axis| normal(contact)[axis]),
+                normal: vector(|contact, turn, axis| normal(contact, turn)[axis]),
                 overlap: spread(group, &|contact| overlap(contact, turn)),
                 inverse_distance: spread(group, &|contact| {
                     1.0 / (radius(2 * contact) + radius(2 * contact + 1) - overlap(contact, turn))
@@ -103,8 +103,9 @@ fn velocity(seed: usize, turn: usize, axis: usize) -> f64 {
     5e-3 * noise(2000 + 3 * seed + axis) * (1.0 - 2.0 * turn as f64)
 }
 
-fn normal(contact: usize) -> [f64; 3] {
-    let (height, angle) = (noise(5000 + contact), TAU * noise(6000 + contact));
+/// Turning by what such velocities turn it within a step: springs have to follow.
+fn normal(contact: usize, turn: usize) -> [f64; 3] {
+    let (height, angle) = (noise(5000 + contact), TAU * noise(6000 + contact) + 2e-5 * turn as f64);
     let radius = (1.0 - height * height).sqrt();
     [radius * angle.cos(), radius * angle.sin(), height]
 }

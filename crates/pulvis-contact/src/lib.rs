@@ -26,7 +26,7 @@ mod model;
 pub mod noncontact;
 pub mod normal;
 mod pair;
-mod resistance;
+pub mod resistance;
 pub mod theory;
 pub mod viscosity;
 

@@ -10,7 +10,7 @@ use crate::friction::SpringSlider;
 use crate::noncontact::{self, NonContact};
 use crate::normal::{Normal, NormalLaw, NormalLawVisitor};
 use crate::pair::Pair;
-use crate::resistance::Resistance;
+use crate::resistance::{self, Resistance};
 use crate::viscosity::{self, Viscosity};
 
 /// Everything of a contact but its normal law: chosen at run time, the same for every contact of a
@@ -140,11 +140,11 @@ impl ContactModel {
         let (stiffest, own_dashpot) = self.normal.accept(Steepest(pair));
         let stiffness = |slider: Option<SpringSlider>| slider.map_or(0.0, |slider| slider.stiffness);
         let dashpot = |slider: Option<SpringSlider>| slider.map_or(0.0, |slider| slider.dashpot);
-        let squares = (stiffest.max(laws.noncontact.stiffest()) / pair.reduced_mass)
+        let squares = (stiffest.max(laws.noncontact.stiffest()) * pair.inverse_reduced_mass())
             .max(modes.highest(stiffness(laws.sliding), stiffness(laws.rolling)))
             .max(modes.turning * stiffness(laws.torsion));
         let normal_dashpot = own_dashpot + laws.viscosity.largest_coefficient(&pair);
-        let rates = (normal_dashpot / pair.reduced_mass)
+        let rates = (normal_dashpot * pair.inverse_reduced_mass())
             .max(modes.highest(dashpot(laws.sliding), dashpot(laws.rolling)))
             .max(modes.turning * dashpot(laws.torsion));
         PI / squares.sqrt().max(rates)
@@ -167,9 +167,11 @@ impl Modes {
         let inverse_inertia = |(mass, radius): (f64, f64)| 1.0 / (0.4 * mass * radius * radius);
         let (radius_i, turn_i) = (body_i.1, inverse_inertia(body_i));
         let (radius_j, turn_j) = body_j.map_or((0.0, 0.0), |body| (body.1, inverse_inertia(body)));
-        let lever = pair.harmonic_radius;
+        let lever = pair.harmonic_radius();
         Self {
-            sliding: 1.0 / pair.reduced_mass + radius_i * radius_i * turn_i + radius_j * radius_j * turn_j,
+            sliding: pair.inverse_reduced_mass()
+                + radius_i * radius_i * turn_i
+                + radius_j * radius_j * turn_j,
             turning: lever * lever * (turn_i + turn_j),
             coupling: lever * (radius_i * turn_i - radius_j * turn_j),
         }
@@ -199,11 +201,23 @@ impl Composition {
         self.sliding.is_some() || self.rolling.is_some() || self.torsion.is_some()
     }
 
+    /// The lowest level of [`resistance`] that leaves none of the contact's laws out.
+    pub fn resistance_level(&self) -> u8 {
+        if self.rolling.is_some() || self.torsion.is_some() {
+            resistance::ALL
+        } else if self.sliding.is_some() {
+            resistance::SLIDING
+        } else {
+            resistance::NONE
+        }
+    }
+
     /// The whole contact with the normal law `law`: updates the memory and answers with forces,
-    /// torques and energies. `time_step` [s] is the step that led to `motion`. Without `FRICTION`
-    /// the sliding, rolling and torsion laws are left out.
+    /// torques and energies. `time_step` [s] is the step that led to `motion`. Of the sliding, rolling
+    /// and torsion laws those are left out that the level `RESISTANCE` (see [`resistance`]) does not
+    /// hold; their code is not there.
     #[inline(always)]
-    pub fn respond<R: Real, N: NormalLaw, const FRICTION: bool>(
+    pub fn respond<R: Real, N: NormalLaw, const RESISTANCE: u8>(
         &self,
         law: &N,
         pair: &Pair<R>,
@@ -233,7 +247,7 @@ impl Composition {
             },
             ..ContactResponse::default()
         };
-        if FRICTION {
+        if RESISTANCE >= resistance::SLIDING {
             let reference = self.conventions.friction_reference(
                 elastic.friction_reference,
                 elastic.force,
@@ -244,11 +258,14 @@ impl Composition {
             if let Some(slider) = &self.sliding {
                 step.slide(slider, &mut memory.sliding, &mut response);
             }
-            if let Some(slider) = &self.rolling {
-                step.roll(slider, &mut memory.rolling, &mut response);
-            }
-            if let Some(slider) = &self.torsion {
-                step.twist(slider, &mut memory.torsion, &mut response);
+            if RESISTANCE >= resistance::ALL && (self.rolling.is_some() || self.torsion.is_some()) {
+                let levers = step.levers();
+                if let Some(slider) = &self.rolling {
+                    step.roll(slider, levers, &mut memory.rolling, &mut response);
+                }
+                if let Some(slider) = &self.torsion {
+                    step.twist(slider, levers, &mut memory.torsion, &mut response);
+                }
             }
         }
         response

@@ -3,29 +3,84 @@
 use pulvis_math::Real;
 
 /// Constants of a pair of spheres, or of a sphere and a plane wall.
+///
+/// Kept as the inverses 1/m_r and 1/a12, which are sums of the inverses of the two bodies: a loop over
+/// contacts that knows those builds a pair without a division, the slowest of the instructions that
+/// contacts need, and a law pays one only if it asks for the mass or for the radius itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair<R = f64> {
-    /// Reduced mass m_r = m_i m_j / (m_i + m_j), of a wall contact m_i [kg].
-    pub reduced_mass: R,
-    /// Harmonic mean of the radii a12 = 2 a_i a_j / (a_i + a_j), of a wall contact 2 a_i [m]. The
-    /// papers call it the reduced radius; it is twice the effective radius of contact mechanics.
-    pub harmonic_radius: R,
+    inverse_reduced_mass: R,
+    mean_curvature: R,
 }
 
 impl<R: Real> Pair<R> {
     /// Two spheres with masses [kg] and radii [m].
     #[inline(always)]
     pub fn spheres(mass_i: R, mass_j: R, radius_i: R, radius_j: R) -> Self {
-        Self {
-            reduced_mass: mass_i * mass_j / (mass_i + mass_j),
-            harmonic_radius: R::splat(2.0) * radius_i * radius_j / (radius_i + radius_j),
-        }
+        let one = R::one();
+        Self::spheres_from_inverses(one / mass_i, one / mass_j, one / radius_i, one / radius_j)
     }
 
     /// A sphere with mass [kg] and radius [m] at a plane wall that does not give way.
     #[inline(always)]
     pub fn wall(mass: R, radius: R) -> Self {
-        Self { reduced_mass: mass, harmonic_radius: R::splat(2.0) * radius }
+        Self::wall_from_inverses(R::one() / mass, R::one() / radius)
+    }
+
+    /// Two spheres, from one over their masses [1/kg] and one over their radii [1/m]. The same bits as
+    /// of [`spheres`](Self::spheres).
+    #[inline(always)]
+    pub fn spheres_from_inverses(
+        inverse_mass_i: R,
+        inverse_mass_j: R,
+        inverse_radius_i: R,
+        inverse_radius_j: R,
+    ) -> Self {
+        Self {
+            inverse_reduced_mass: inverse_mass_i + inverse_mass_j,
+            mean_curvature: R::splat(0.5) * (inverse_radius_i + inverse_radius_j),
+        }
+    }
+
+    /// A sphere at a plane wall, from one over its mass [1/kg] and one over its radius [1/m]. The same
+    /// bits as of [`wall`](Self::wall).
+    #[inline(always)]
+    pub fn wall_from_inverses(inverse_mass: R, inverse_radius: R) -> Self {
+        Self { inverse_reduced_mass: inverse_mass, mean_curvature: R::splat(0.5) * inverse_radius }
+    }
+
+    /// One pair a lane, from its index.
+    pub fn from_lanes(pair: impl Fn(usize) -> Pair<f64>) -> Self {
+        Self {
+            inverse_reduced_mass: R::from_lanes(|lane| pair(lane).inverse_reduced_mass),
+            mean_curvature: R::from_lanes(|lane| pair(lane).mean_curvature),
+        }
+    }
+
+    /// One over the reduced mass, 1/m_i + 1/m_j, of a wall contact 1/m_i [1/kg].
+    #[inline(always)]
+    pub fn inverse_reduced_mass(&self) -> R {
+        self.inverse_reduced_mass
+    }
+
+    /// One over the harmonic mean of the radii, (1/a_i + 1/a_j)/2, of a wall contact 1/(2 a_i) [1/m].
+    #[inline(always)]
+    pub fn mean_curvature(&self) -> R {
+        self.mean_curvature
+    }
+
+    /// Reduced mass m_r = m_i m_j / (m_i + m_j), of a wall contact m_i [kg]. Costs a division.
+    #[inline(always)]
+    pub fn reduced_mass(&self) -> R {
+        R::one() / self.inverse_reduced_mass
+    }
+
+    /// Harmonic mean of the radii a12 = 2 a_i a_j / (a_i + a_j), of a wall contact 2 a_i [m]. The
+    /// papers call it the reduced radius; it is twice the effective radius of contact mechanics. Costs
+    /// a division.
+    #[inline(always)]
+    pub fn harmonic_radius(&self) -> R {
+        R::one() / self.mean_curvature
     }
 }
 
@@ -37,7 +92,27 @@ mod tests {
     fn a_huge_partner_is_a_wall() {
         let near_wall: Pair = Pair::spheres(1e-6, 1e12, 1e-3, 1e12);
         let wall = Pair::wall(1e-6, 1e-3);
-        assert!((near_wall.reduced_mass / wall.reduced_mass - 1.0).abs() < 1e-14);
-        assert!((near_wall.harmonic_radius / wall.harmonic_radius - 1.0).abs() < 1e-14);
+        assert!((near_wall.reduced_mass() / wall.reduced_mass() - 1.0).abs() < 1e-14);
+        assert!((near_wall.harmonic_radius() / wall.harmonic_radius() - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn masses_and_radii_are_those_of_the_formulas() {
+        let pair: Pair = Pair::spheres(2e-6, 3e-6, 1e-3, 4e-3);
+        assert!((pair.reduced_mass() / 1.2e-6 - 1.0).abs() < 1e-15);
+        assert!((pair.harmonic_radius() / 1.6e-3 - 1.0).abs() < 1e-15);
+        let wall: Pair = Pair::wall(2e-6, 1e-3);
+        assert!((wall.reduced_mass() / 2e-6 - 1.0).abs() < 1e-15);
+        assert!((wall.harmonic_radius() / 2e-3 - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn both_ways_to_make_a_pair_give_the_same_bits() {
+        let (mass_i, mass_j, radius_i, radius_j): (f64, f64, f64, f64) = (3.1e-6, 7.3e-6, 0.7e-3, 1.9e-3);
+        assert_eq!(
+            Pair::spheres(mass_i, mass_j, radius_i, radius_j),
+            Pair::spheres_from_inverses(1.0 / mass_i, 1.0 / mass_j, 1.0 / radius_i, 1.0 / radius_j)
+        );
+        assert_eq!(Pair::wall(mass_i, radius_i), Pair::wall_from_inverses(1.0 / mass_i, 1.0 / radius_i));
     }
 }

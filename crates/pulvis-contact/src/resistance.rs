@@ -1,12 +1,24 @@
 //! How a contact's springs against sliding, rolling and torsion follow the two bodies.
+//!
+//! The constants are the levels of resistance for which [`Composition::respond`] is compiled; each
+//! holds the one before.
+//!
+//! [`Composition::respond`]: crate::Composition::respond
 
-use pulvis_math::{Real, Vector3};
+use pulvis_math::{Mask, Real, Vector3};
 
 use crate::conventions::{Conventions, LeverArm, RollingLever};
 use crate::energy::ContactEnergies;
-use crate::friction::{FrictionResponse, SpringMotion, SpringRotation, SpringSlider, carried_along};
+use crate::friction::{FrictionResponse, SpringMotion, SpringRotation, SpringSlider, rescaled, twisted};
 use crate::model::{ContactResponse, PairMotion};
 use crate::pair::Pair;
+
+/// No resistance at all.
+pub const NONE: u8 = 0;
+/// Resistance against sliding, if the contact has it.
+pub const SLIDING: u8 = 1;
+/// Resistance against sliding, rolling and torsion, whatever of them the contact has.
+pub const ALL: u8 = 2;
 
 /// One step of a contact as its springs see it. Luding 2008, section 2.3-2.4.
 ///
@@ -43,8 +55,14 @@ impl<'a, R: Real> Resistance<'a, R> {
         let dt = R::splat(time_step);
         let closing = -motion.velocity_mid.dot(motion.normal);
         let sideways = motion.velocity_mid + motion.normal * closing;
-        // A contact that began within the step has moved for a part of the step only.
-        let elapsed = (dt * (overlap / overlap.max(closing * dt))).keep_where(touching);
+        // A contact that began within the step has moved for a part of the step only. Few do.
+        let approach = closing * dt;
+        let began = touching & overlap.lt(approach);
+        let mut elapsed = dt;
+        if began.any() {
+            elapsed = R::select(began, dt * (overlap / approach), dt);
+        }
+        let elapsed = elapsed.keep_where(touching);
         let half = R::splat(0.5) * elapsed;
         let half_turn = half * motion.inverse_distance;
         Self {
@@ -73,9 +91,13 @@ impl<'a, R: Real> Resistance<'a, R> {
         let (motion, normal) = (self.motion, self.motion.normal);
         let (arm_i, arm_j) = self.arms(self.overlap);
         let (mid_i, mid_j) = self.arms(self.overlap_mid);
-        let spins = motion.spin_i * arm_i + motion.spin_j * arm_j;
+        // The velocity at the time of the positions is for the dashpot alone.
+        let mut velocity = Vector3::zero();
+        if slider.dashpot != 0.0 {
+            let spins = motion.spin_i * arm_i + motion.spin_j * arm_j;
+            velocity = motion.velocity.tangential_to(normal) + normal.cross(spins);
+        }
         let spins_mid = motion.spin_i_mid * mid_i + motion.spin_j_mid * mid_j;
-        let velocity = motion.velocity.tangential_to(normal) + normal.cross(spins);
         let velocity_mid = self.sideways_mid + self.normal_mid.cross(spins_mid);
         let answer = self.stretch(slider, velocity, velocity_mid, spring);
         let moment = normal.cross(answer.force);
@@ -93,12 +115,15 @@ impl<'a, R: Real> Resistance<'a, R> {
     pub(crate) fn roll(
         &self,
         slider: &SpringSlider,
+        (lever, lever_mid): (R, R),
         spring: &mut Vector3<R>,
         response: &mut ContactResponse<R>,
     ) {
         let (motion, normal) = (self.motion, self.motion.normal);
-        let (lever, lever_mid) = (self.lever(self.overlap), self.lever(self.overlap_mid));
-        let velocity = normal.cross(motion.spin_i - motion.spin_j) * -lever;
+        let mut velocity = Vector3::zero();
+        if slider.dashpot != 0.0 {
+            velocity = normal.cross(motion.spin_i - motion.spin_j) * -lever;
+        }
         let spin_mid = motion.spin_i_mid - motion.spin_j_mid;
         let velocity_mid = self.normal_mid.cross(spin_mid) * -lever_mid;
         let answer = self.stretch(slider, velocity, velocity_mid, spring);
@@ -110,10 +135,18 @@ impl<'a, R: Real> Resistance<'a, R> {
 
     /// Adds the torques of the torsion spring.
     #[inline(always)]
-    pub(crate) fn twist(&self, slider: &SpringSlider, spring: &mut R, response: &mut ContactResponse<R>) {
+    pub(crate) fn twist(
+        &self,
+        slider: &SpringSlider,
+        (lever, lever_mid): (R, R),
+        spring: &mut R,
+        response: &mut ContactResponse<R>,
+    ) {
         let (motion, normal) = (self.motion, self.motion.normal);
-        let (lever, lever_mid) = (self.lever(self.overlap), self.lever(self.overlap_mid));
-        let velocity = normal.dot(motion.spin_i - motion.spin_j) * lever;
+        let mut velocity = R::zero();
+        if slider.dashpot != 0.0 {
+            velocity = normal.dot(motion.spin_i - motion.spin_j) * lever;
+        }
         let spin_mid = motion.spin_i_mid - motion.spin_j_mid;
         let velocity_mid = self.normal_mid.dot(spin_mid) * lever_mid;
         let before = *spring;
@@ -151,18 +184,24 @@ impl<'a, R: Real> Resistance<'a, R> {
         let (motion, normal) = (self.motion, self.motion.normal);
         let rotation = self.conventions.spring_rotation;
         let before = *spring;
-        let part = motion.inverse_distance * self.elapsed;
-        let turned = self.sideways_mid * part;
-        let along = before.dot(motion.velocity_mid) * part;
-        let twist = R::splat(0.5) * (motion.spin_i_mid + motion.spin_j_mid).dot(normal) * self.elapsed;
-        let carried = carried_along(rotation, before, normal, along, turned, twist);
-        *spring = carried;
-        let step = velocity_mid * self.elapsed;
-        let step = match rotation {
-            // The displacement was made, on average, half a twist ago.
-            SpringRotation::Twist => step + normal.cross(step) * (R::splat(0.5) * twist),
-            _ => step,
+        let mut step = velocity_mid * self.elapsed;
+        let carried = match rotation {
+            SpringRotation::Rescale => rescaled(before, normal),
+            SpringRotation::Project => before.tangential_to(normal),
+            SpringRotation::Twist => {
+                let half = R::splat(0.5);
+                let turned = self.sideways_mid * (motion.inverse_distance * self.elapsed);
+                let twist = half * (motion.spin_i_mid + motion.spin_j_mid).dot(normal) * self.elapsed;
+                // The displacement was made, on average, half a twist ago.
+                step += normal.cross(step) * (half * twist);
+                twisted(before, normal, turned, twist)
+            }
+            SpringRotation::Rate => {
+                let along = before.dot(motion.velocity_mid) * (motion.inverse_distance * self.elapsed);
+                before - normal * along
+            }
         };
+        *spring = carried;
         let mut answer = slider.respond(
             &SpringMotion {
                 velocity: velocity.keep_where(self.touching),
@@ -193,17 +232,25 @@ impl<'a, R: Real> Resistance<'a, R> {
         }
     }
 
-    /// The length L of the rolling and torsion velocities [m].
+    /// The length L of the rolling and torsion velocities [m], at the time of the positions and at
+    /// mid-step.
     #[inline(always)]
-    fn lever(&self, overlap: R) -> R {
+    pub(crate) fn levers(&self) -> (R, R) {
         match self.conventions.rolling_lever {
-            RollingLever::Harmonic => self.pair.harmonic_radius,
-            RollingLever::Reduced => {
-                let (arm_i, arm_j) = self.arms(overlap);
-                let at_wall = arm_j.le(R::zero());
-                R::select(at_wall, arm_i, arm_i * arm_j / (arm_i + arm_j))
+            RollingLever::Harmonic => {
+                let lever = self.pair.harmonic_radius();
+                (lever, lever)
             }
+            RollingLever::Reduced => (self.reduced_arm(self.overlap), self.reduced_arm(self.overlap_mid)),
         }
+    }
+
+    /// The product of the two arms over their sum, at a wall the one arm [m].
+    #[inline(always)]
+    fn reduced_arm(&self, overlap: R) -> R {
+        let (arm_i, arm_j) = self.arms(overlap);
+        let at_wall = arm_j.le(R::zero());
+        R::select(at_wall, arm_i, arm_i * arm_j / (arm_i + arm_j))
     }
 }
 

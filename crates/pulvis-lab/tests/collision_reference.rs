@@ -127,7 +127,7 @@ fn the_force_loops_of_figures_7_and_11_are_followed() {
 
 #[test]
 fn the_energies_of_figure_15_are_followed() {
-    let initial = |row: &Row| 0.5 * row.bodies().pair().reduced_mass * row.number("v_inf").powi(2);
+    let initial = |row: &Row| 0.5 * row.bodies().pair().reduced_mass() * row.number("v_inf").powi(2);
     follow("15", "E_kin_over_Ei", 40, |row, sample| sample.kinetic / initial(row));
     follow("15", "E_pot_over_Ei", 40, |row, sample| sample.potential_plastic / initial(row));
     follow("15", "E_avail_over_Ei", 40, |row, sample| sample.potential_available / initial(row));

@@ -130,13 +130,13 @@ fn a_weak_dashpot_that_grows_with_overlap_takes_its_first_order_share() {
         );
         let point = &points(PAIR, "variable = \"velocity\"\nvalues = [0.1]", &laws)[0];
         let pair = point.case.bodies.pair();
-        let frequency = (100.0 / pair.reduced_mass).sqrt();
+        let frequency = (100.0 / pair.reduced_mass()).sqrt();
         let amplitude = 0.1 / frequency;
-        let ratio: f64 = amplitude / pair.harmonic_radius;
+        let ratio: f64 = amplitude / pair.harmonic_radius();
         let expected = 1e-4 * amplitude * amplitude * frequency * ratio.powf(exponent) * share;
         let got = point.collision.outcome.energy_dissipated;
         // Second order in γ is smaller by the share of the energy that is lost.
-        let initial = 0.5 * pair.reduced_mass * 0.01;
+        let initial = 0.5 * pair.reduced_mass() * 0.01;
         assert!((got / expected - 1.0).abs() < 10.0 * expected / initial + 1e-9, "{got} for {expected}");
     }
 }

@@ -2,6 +2,7 @@
 
 use pulvis_contact::{
     Composition, ContactMemory, ContactModel, ContactResponse, NormalLaw, NormalLawVisitor, Pair, PairMotion,
+    resistance,
 };
 use pulvis_math::Vector3;
 
@@ -58,10 +59,14 @@ struct Live<N: NormalLaw> {
 impl<N: NormalLaw> AnyContact for Live<N> {
     fn respond(&mut self, motion: &PairMotion<f64>, time_step: f64) -> ContactResponse<f64> {
         let Self { law, composition, pair, memory } = self;
-        if composition.has_friction() {
-            composition.respond::<f64, N, true>(law, pair, motion, time_step, memory)
-        } else {
-            composition.respond::<f64, N, false>(law, pair, motion, time_step, memory)
+        match composition.resistance_level() {
+            resistance::NONE => {
+                composition.respond::<f64, N, { resistance::NONE }>(law, pair, motion, time_step, memory)
+            }
+            resistance::SLIDING => {
+                composition.respond::<f64, N, { resistance::SLIDING }>(law, pair, motion, time_step, memory)
+            }
+            _ => composition.respond::<f64, N, { resistance::ALL }>(law, pair, motion, time_step, memory),
         }
     }
 

@@ -33,7 +33,7 @@ impl NormalLawVisitor for Suite<'_> {
         let mut overlaps = [0.0; 8];
         for lane in 0..8 {
             let mut memory = <N::Memory<f64>>::default();
-            let scale = normal.respond(&pairs[lane], 0.0, &mut memory).overlap_scale;
+            let scale = normal.respond(&pairs[lane], 0.0, &mut memory).inverse_overlap_scale.recip();
             for _ in 0..4 {
                 overlaps[lane] = if draw.chance(0.1) { 0.0 } else { scale * draw.unit() };
                 answers[lane] = normal.respond(&pairs[lane], overlaps[lane], &mut memory);
@@ -45,16 +45,13 @@ impl NormalLawVisitor for Suite<'_> {
             assert!(coefficient <= largest * (1.0 + 1e-12), "{law:?}: {coefficient} kg/s, bound {largest}");
         }
         let together = law.coefficient(
-            &Pair {
-                reduced_mass: lanes(|lane| pairs[lane].reduced_mass),
-                harmonic_radius: lanes(|lane| pairs[lane].harmonic_radius),
-            },
+            &Pair::from_lanes(|lane| pairs[lane]),
             Lanes(overlaps),
             &NormalResponse {
                 force: lanes(|lane| answers[lane].force),
                 friction_reference: lanes(|lane| answers[lane].friction_reference),
                 hardening: lanes(|lane| answers[lane].hardening),
-                overlap_scale: lanes(|lane| answers[lane].overlap_scale),
+                inverse_overlap_scale: lanes(|lane| answers[lane].inverse_overlap_scale),
                 stored_energy: lanes(|lane| answers[lane].stored_energy),
                 dissipated_plastic: lanes(|lane| answers[lane].dissipated_plastic),
                 dissipated_adhesive: lanes(|lane| answers[lane].dissipated_adhesive),

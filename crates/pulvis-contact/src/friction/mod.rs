@@ -1,7 +1,7 @@
 //! Resistance against sliding, rolling and torsion. One file a law; the list is at the end of this
 //! file.
 
-use pulvis_math::{Real, Vector3};
+use pulvis_math::{Mask, Real, Vector3};
 
 use crate::catalogue::{InvalidParameter, LawEntry, Role, Values};
 
@@ -51,39 +51,52 @@ pub enum SpringRotation {
     Rate,
 }
 
-/// A spring before the step, carried along by the turning contact: `turned` is the change of the
-/// normal in the step, `turn_rate_normal` the normal part that the rate form of the spring loses [m],
-/// `mean_twist` the mean turn of the bodies about the normal.
+/// A spring before the step in the tangent plane of the present normal, at the length that it had.
 #[inline(always)]
-pub(crate) fn carried_along<R: Real>(
-    rotation: SpringRotation,
-    spring: Vector3<R>,
-    normal: Vector3<R>,
-    turn_rate_normal: R,
-    turned: Vector3<R>,
-    mean_twist: R,
-) -> Vector3<R> {
-    match rotation {
-        SpringRotation::Rescale => restored(spring, spring, normal),
-        SpringRotation::Project => spring.tangential_to(normal),
-        SpringRotation::Twist => {
-            // Projection loses half the square of the turn along the way of the normal.
-            let lost = turned * (R::splat(0.5) * turned.dot(spring));
-            restored(spring + lost + normal.cross(spring) * mean_twist, spring, normal)
-        }
-        SpringRotation::Rate => spring - normal * turn_rate_normal,
-    }
+pub(crate) fn rescaled<R: Real>(spring: Vector3<R>, normal: Vector3<R>) -> Vector3<R> {
+    let along = spring.dot(normal);
+    restored(spring - normal * along, along * along)
 }
 
-/// A moved spring, back in the tangent plane and at the length that it had before, whatever moved it.
+/// A spring before the step turned with the normal, which has changed by `turned`, and about it by the
+/// mean turn `twist` of the bodies.
+#[inline(always)]
+pub(crate) fn twisted<R: Real>(
+    spring: Vector3<R>,
+    normal: Vector3<R>,
+    turned: Vector3<R>,
+    twist: R,
+) -> Vector3<R> {
+    // Projection loses half the square of the turn along the way of the normal.
+    let lost = turned * (R::splat(0.5) * turned.dot(spring));
+    let projected = (spring + lost + normal.cross(spring) * twist).tangential_to(normal);
+    restored(projected, spring.norm_squared() - projected.norm_squared())
+}
+
+/// Beyond this t, √(1 + t) is not taken from its series.
+const SERIES_ENDS: f64 = 1e-4;
+
+/// A spring stretched, or shortened, to the length before projection: the square of its length has lost
+/// `missing`. The factor is √(1 + t), t = missing/|spring|², and normals turn little in a step.
 // A function and not a closure: closures are not inlined by force, and out of line they are compiled
 // without the vector instructions of the loop that calls them.
 #[inline(always)]
-fn restored<R: Real>(moved: Vector3<R>, before: Vector3<R>, normal: Vector3<R>) -> Vector3<R> {
-    let projected = moved.tangential_to(normal);
-    let remaining = projected.norm_squared();
-    let stretched = (before.norm_squared() / remaining).sqrt();
-    projected * R::select(remaining.gt(R::zero()), stretched, R::one())
+fn restored<R: Real>(spring: Vector3<R>, missing: R) -> Vector3<R> {
+    let remaining = spring.norm_squared();
+    // Up to t = 2⁻⁵³ the factor is 1 to the last digit: no division. No spring: no factor.
+    let stretches = missing.abs().gt(remaining * R::splat(0.5 * f64::EPSILON)) & remaining.gt(R::zero());
+    let mut factor = R::one();
+    if stretches.any() {
+        let t = missing / remaining;
+        // The next term, −5 t⁴/128, is below 2⁻⁵⁴.
+        let series = R::one() + t * (R::splat(0.5) + t * (R::splat(-0.125) + t * R::splat(0.0625)));
+        factor = R::select(stretches, series, factor);
+        let far = stretches & t.abs().gt(R::splat(SERIES_ENDS));
+        if far.any() {
+            factor = R::select(far, (R::one() + t).sqrt(), factor);
+        }
+    }
+    spring * factor
 }
 
 macro_rules! friction_laws {
@@ -110,3 +123,46 @@ macro_rules! friction_laws {
 
 // The list of friction laws: a new one is its file and its name here.
 friction_laws![none, spring_slider];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A spring of length `length` that leans by `angle` out of the plane at right angles to z.
+    fn leaning(length: f64, angle: f64) -> Vector3 {
+        Vector3::new(length * angle.cos(), 0.0, length * angle.sin())
+    }
+
+    const NORMAL: Vector3 = Vector3::new(0.0, 0.0, 1.0);
+
+    #[test]
+    fn a_spring_is_turned_into_the_tangent_plane_at_its_length() {
+        // From angles that change nothing over those of the series to those of the square root.
+        for exponent in -12..=0 {
+            for mantissa in [1.0, 2.1, 4.7] {
+                let angle = mantissa * 10.0_f64.powi(exponent);
+                if angle < 1.5 {
+                    let spring = rescaled(leaning(3e-7, angle), NORMAL);
+                    assert_eq!((spring.y, spring.z), (0.0, 0.0));
+                    assert!((spring.x / 3e-7 - 1.0).abs() < 4.0 * f64::EPSILON, "{angle}: {}", spring.x);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn series_and_square_root_agree_where_one_takes_over_from_the_other() {
+        for t in [0.999 * SERIES_ENDS, 1.001 * SERIES_ENDS, -0.999 * SERIES_ENDS, -1.001 * SERIES_ENDS] {
+            let spring = restored(Vector3::new(2.0, 0.0, 0.0), 4.0 * t);
+            assert!((spring.x / (2.0 * (1.0 + t).sqrt()) - 1.0).abs() < 2.0 * f64::EPSILON, "{t}");
+        }
+    }
+
+    #[test]
+    fn a_spring_that_lies_along_the_normal_or_is_none_stays_finite() {
+        for spring in [Vector3::zero(), Vector3::new(0.0, 0.0, 1e-6)] {
+            assert_eq!(rescaled(spring, NORMAL), Vector3::zero());
+            assert_eq!(twisted(spring, NORMAL, Vector3::zero(), 0.1), Vector3::zero());
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! The common spring-dashpot-slider of sliding, rolling and torsion.
 
-use pulvis_math::{Dimension, Real, Vector3};
+use pulvis_math::{Dimension, Mask, Real, Vector3};
 
 use super::{FrictionResponse, SpringMotion};
 use crate::catalogue::{InvalidParameter, LawEntry, Parameter, Range, Role, Values};
@@ -170,22 +170,27 @@ impl SpringSlider {
         motion: &SpringMotion<Vector3<R>, R>,
         spring: &mut Vector3<R>,
     ) -> FrictionResponse<Vector3<R>, R> {
-        let k = R::splat(self.stiffness);
+        let opposing = R::splat(-self.stiffness);
         let gamma = R::splat(self.dashpot);
         let before = *spring;
         let trial = before + motion.displacement;
         let damping = motion.velocity * gamma;
-        let trial_force = -(trial * k) - damping;
-        let limit = R::splat(self.dynamic_coefficient) * motion.friction_reference;
+        let trial_force = trial * opposing - damping;
         let static_limit = R::splat(self.static_coefficient) * motion.friction_reference;
-        let size = trial_force.norm();
-        let slides = size.gt(static_limit);
-        let force = trial_force * R::select(slides, limit / size, R::one());
+        let half = R::splat(0.5 * self.stiffness);
+        // Squares are compared: the root and the quotient are for contacts that slide.
+        let size_squared = trial_force.norm_squared();
+        let slides = size_squared.gt(static_limit * static_limit);
+        let mut factor = R::one();
+        if slides.any() {
+            let limit = R::splat(self.dynamic_coefficient) * motion.friction_reference;
+            factor = R::select(slides, limit / size_squared.sqrt(), factor);
+        }
+        let force = trial_force * factor;
         // The spring has the length that gives the limited force; otherwise it would keep the
         // length of the trial and pull backwards when the motion reverses.
-        let after = Vector3::select(slides, -(force + damping) * R::splat(1.0 / self.stiffness), trial);
+        let after = Vector3::select(slides, (force + damping) * R::splat(-1.0 / self.stiffness), trial);
         *spring = after;
-        let half = R::splat(0.5) * k;
         FrictionResponse {
             force,
             stored_energy: half * after.norm_squared(),
@@ -201,20 +206,20 @@ impl SpringSlider {
         motion: &SpringMotion<R, R>,
         spring: &mut R,
     ) -> FrictionResponse<R, R> {
-        let k = R::splat(self.stiffness);
+        let opposing = R::splat(-self.stiffness);
         let gamma = R::splat(self.dashpot);
         let before = *spring;
         let trial = before + motion.displacement;
         let damping = motion.velocity * gamma;
-        let trial_force = -(trial * k) - damping;
-        let limit = R::splat(self.dynamic_coefficient) * motion.friction_reference;
+        let trial_force = trial * opposing - damping;
         let static_limit = R::splat(self.static_coefficient) * motion.friction_reference;
+        let half = R::splat(0.5 * self.stiffness);
         let slides = trial_force.abs().gt(static_limit);
+        let limit = R::splat(self.dynamic_coefficient) * motion.friction_reference;
         let signed_limit = R::select(trial_force.lt(R::zero()), -limit, limit);
         let force = R::select(slides, signed_limit, trial_force);
-        let after = R::select(slides, -(force + damping) * R::splat(1.0 / self.stiffness), trial);
+        let after = R::select(slides, (force + damping) * R::splat(-1.0 / self.stiffness), trial);
         *spring = after;
-        let half = R::splat(0.5) * k;
         FrictionResponse {
             force,
             stored_energy: half * after * after,

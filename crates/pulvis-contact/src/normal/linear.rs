@@ -64,7 +64,13 @@ impl Linear {
     /// Spring stiffness k of a pair [N/m].
     #[inline(always)]
     pub fn stiffness<R: Real>(&self, pair: &Pair<R>) -> R {
-        R::splat(self.stiffness) + R::splat(self.stiffness_per_mass) * pair.reduced_mass
+        let stiffness = R::splat(self.stiffness);
+        // The reduced mass costs a division: only where the law was given by a duration.
+        if self.stiffness_per_mass == 0.0 {
+            stiffness
+        } else {
+            stiffness + R::splat(self.stiffness_per_mass) * pair.reduced_mass()
+        }
     }
 }
 
@@ -154,7 +160,7 @@ impl NormalLaw for Linear {
             force,
             friction_reference: force,
             hardening: R::one(),
-            overlap_scale: pair.harmonic_radius,
+            inverse_overlap_scale: pair.mean_curvature(),
             stored_energy: R::splat(0.5) * force * overlap,
             dissipated_plastic: R::zero(),
             dissipated_adhesive: R::zero(),
@@ -163,9 +169,15 @@ impl NormalLaw for Linear {
 
     #[inline(always)]
     fn dashpot<R: Real>(&self, pair: &Pair<R>) -> R {
-        R::splat(self.dashpot)
-            + R::splat(self.dashpot_per_root_mass) * pair.reduced_mass.sqrt()
-            + R::splat(self.dashpot_per_mass) * pair.reduced_mass
+        // A square root and a division only for the ways of giving the dashpot that need them.
+        let mut dashpot = R::splat(self.dashpot);
+        if self.dashpot_per_root_mass != 0.0 {
+            dashpot += R::splat(self.dashpot_per_root_mass) * pair.reduced_mass().sqrt();
+        }
+        if self.dashpot_per_mass != 0.0 {
+            dashpot += R::splat(self.dashpot_per_mass) * pair.reduced_mass();
+        }
+        dashpot
     }
 
     fn branch(&self, _pair: &Pair<f64>, overlap: f64, _memory: &()) -> (u8, &'static str) {

@@ -169,16 +169,16 @@ impl Luding {
     pub fn plastic_limit<R: Real>(&self, pair: &Pair<R>) -> R {
         match self.interpolation {
             Interpolation::Constant => R::splat(f64::INFINITY),
-            _ => R::splat(self.kp / (self.kp - self.k1) * self.phi_f) * pair.harmonic_radius,
+            _ => R::splat(self.kp / (self.kp - self.k1) * self.phi_f) * pair.harmonic_radius(),
         }
     }
 
-    /// 1/δ_p [1/m], zero where δ_p is infinite.
+    /// 1/δ_p [1/m], zero where δ_p is infinite. Unlike δ_p it costs no division.
     #[inline(always)]
     fn inverse_plastic_limit<R: Real>(&self, pair: &Pair<R>) -> R {
         match self.interpolation {
             Interpolation::Constant => R::zero(),
-            _ => R::splat((self.kp - self.k1) / (self.kp * self.phi_f)) / pair.harmonic_radius,
+            _ => R::splat((self.kp - self.k1) / (self.kp * self.phi_f)) * pair.mean_curvature(),
         }
     }
 
@@ -192,10 +192,10 @@ impl Luding {
         }
     }
 
-    /// Un-/re-loading stiffness k2 [N/m] at the largest overlap D, with 1/δ_p.
+    /// Un-/re-loading stiffness k2 [N/m] of a contact that has hardened so far.
     #[inline(always)]
-    fn stiffness<R: Real>(&self, overlap_max: R, inverse_limit: R) -> R {
-        R::splat(self.k1) + R::splat(self.kp - self.k1) * self.hardening(overlap_max, inverse_limit)
+    fn stiffness<R: Real>(&self, hardening: R) -> R {
+        R::splat(self.k1) + R::splat(self.kp - self.k1) * hardening
     }
 
     /// The largest overlap D [m] whose k2 line passes through the point (δ, −kc δ) of the tensile
@@ -215,20 +215,24 @@ impl Luding {
         }
     }
 
-    /// Energy [J] that is lost while the contact is loaded for the first time up to D: the area
-    /// between the k1 line and the k2 line, ½ k1 D δ_0 (from S1 eqs. 5 and 9).
+    /// Energy [J] that is lost while a contact that was loaded up to `before` is loaded up to `after`,
+    /// each a largest overlap D with its k2: the difference of the areas between the k1 line and the
+    /// k2 line, ½ k1 D δ_0 (from S1 eqs. 5 and 9), over the common denominator.
     #[inline(always)]
-    fn plastic_work<R: Real>(&self, overlap_max: R, k2: R) -> R {
-        R::splat(0.5 * self.k1) * overlap_max * overlap_max * (k2 - R::splat(self.k1)) / k2
+    fn plastic_work<R: Real>(&self, before: (R, R), after: (R, R)) -> R {
+        let k1 = R::splat(self.k1);
+        let numerator_before = before.0 * before.0 * (before.1 - k1) * after.1;
+        let numerator_after = after.0 * after.0 * (after.1 - k1) * before.1;
+        R::splat(0.5 * self.k1) * (numerator_after - numerator_before) / (before.1 * after.1)
     }
 
     /// Energy [J] that is lost on the tensile limit branch from δ_min(D) down to zero:
-    /// ½ kc δ_min² (1 + kc/k2), work done minus elastic energy that was there before.
+    /// ½ kc δ_min² (1 + kc/k2), work done minus elastic energy that was there before. With
+    /// δ_min = (k2 − k1)/(k2 + kc) D one quotient is left.
     #[inline(always)]
     fn adhesive_work<R: Real>(&self, overlap_max: R, k2: R) -> R {
-        let kc = R::splat(self.kc);
-        let overlap_min = (k2 - R::splat(self.k1)) / (k2 + kc) * overlap_max;
-        R::splat(0.5) * kc * overlap_min * overlap_min * (R::one() + kc / k2)
+        let overlap = (k2 - R::splat(self.k1)) * overlap_max;
+        R::splat(0.5 * self.kc) * overlap * overlap / (k2 * (k2 + R::splat(self.kc)))
     }
 }
 
@@ -243,40 +247,53 @@ impl NormalLaw for Luding {
         memory: &mut LudingMemory<R>,
     ) -> NormalResponse<R> {
         let (k1, kc) = (R::splat(self.k1), R::splat(self.kc));
-        let limit = self.plastic_limit(pair);
         let inverse_limit = self.inverse_plastic_limit(pair);
 
-        // A switch of parameters may have lowered the limit below what the contact remembers.
-        let before = memory.overlap_max.min(limit);
-        let loaded = before.max(overlap.min(limit));
-        let k2_loaded = self.stiffness(loaded, inverse_limit);
+        let mut before = memory.overlap_max;
+        let mut loaded = before.max(overlap);
+        let beyond = (loaded * inverse_limit).gt(R::one());
+        // δ_p itself costs a division, and only few contacts are fully plastic.
+        if beyond.any() {
+            let limit = self.plastic_limit(pair);
+            // A switch of parameters may have lowered the limit below what the contact remembers.
+            before = R::select(beyond, before.min(limit), before);
+            loaded = R::select(beyond, loaded.min(limit), loaded);
+        }
+        let hardening_loaded = self.hardening(loaded, inverse_limit);
+        let k2_loaded = self.stiffness(hardening_loaded);
         let line = k2_loaded * overlap - (k2_loaded - k1) * loaded;
         let tensile_limit = -(kc * overlap);
         let on_limit = line.lt(tensile_limit);
         let force = R::select(on_limit, tensile_limit, line);
         let mut after = loaded;
+        let mut hardening = hardening_loaded;
         let mut k2 = k2_loaded;
+        // In most contacts of a packing at rest the history does not change, and nothing is lost. Where
+        // other lanes lose something, these two differences are zero.
+        let (mut plastic, mut adhesive) = (R::zero(), R::zero());
         if on_limit.any() {
-            let shrunk = self.overlap_max_on_limit(overlap, limit, inverse_limit);
+            let shrunk = self.overlap_max_on_limit(overlap, self.plastic_limit(pair), inverse_limit);
             // Never above what it was: round-off must not make a contact grow on this branch.
             after = R::select(on_limit, shrunk.min(loaded), loaded);
-            k2 = self.stiffness(after, inverse_limit);
-        }
-        after = after.keep_where(overlap.gt(R::zero()));
-        memory.overlap_max = after;
-        let (mut plastic, mut adhesive) = (R::zero(), R::zero());
-        // In most contacts of a packing at rest the history does not change, and nothing is lost.
-        if (loaded.gt(before) | on_limit).any() {
-            let k2_before = self.stiffness(before, inverse_limit);
-            plastic = self.plastic_work(loaded, k2_loaded) - self.plastic_work(before, k2_before);
+            hardening = self.hardening(after, inverse_limit);
+            k2 = self.stiffness(hardening);
             adhesive = self.adhesive_work(loaded, k2_loaded) - self.adhesive_work(after, k2);
         }
+        if loaded.gt(before).any() {
+            let k2_before = self.stiffness(self.hardening(before, inverse_limit));
+            plastic = self.plastic_work((before, k2_before), (loaded, k2_loaded));
+        }
+        memory.overlap_max = after.keep_where(overlap.gt(R::zero()));
 
         NormalResponse {
             force,
             friction_reference: (force + kc * overlap).max(R::zero()),
-            hardening: self.hardening(after, inverse_limit),
-            overlap_scale: if self.has_plastic_limit() { limit } else { pair.harmonic_radius },
+            hardening,
+            inverse_overlap_scale: if self.has_plastic_limit() {
+                inverse_limit
+            } else {
+                pair.mean_curvature()
+            },
             stored_energy: R::splat(0.5) * force * force / k2,
             dissipated_plastic: plastic,
             dissipated_adhesive: adhesive,
@@ -286,7 +303,7 @@ impl NormalLaw for Luding {
     fn branch(&self, pair: &Pair<f64>, overlap: f64, memory: &LudingMemory<f64>) -> (u8, &'static str) {
         let limit = self.plastic_limit(pair);
         let loaded = memory.overlap_max.min(limit).max(overlap.min(limit));
-        let k2 = self.k1 + (self.kp - self.k1) * self.hardening(loaded, self.inverse_plastic_limit(pair));
+        let k2 = self.stiffness(self.hardening(loaded, self.inverse_plastic_limit(pair)));
         let line = k2 * overlap - (k2 - self.k1) * loaded;
         // After the response the point lies on the tensile limit to round-off of the line's two
         // terms, not below it.

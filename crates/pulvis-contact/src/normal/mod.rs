@@ -42,8 +42,8 @@ pub struct NormalResponse<R = f64> {
     /// How far the contact has hardened, (k2 − k1)/(kp − k1), from 0 (virgin) to 1; laws that do not
     /// harden: 1.
     pub hardening: R,
-    /// The overlap that the law takes as its scale (Luding: δ_p; elastic laws: a12) [m].
-    pub overlap_scale: R,
+    /// One over the overlap that the law takes as its scale (Luding: δ_p; elastic laws: a12) [1/m].
+    pub inverse_overlap_scale: R,
     /// Energy that the contact gives back along its elastic branch [J].
     pub stored_energy: R,
     /// Energy lost to plastic deformation since the last call [J].

@@ -24,7 +24,8 @@ pub trait ViscousLaw: Law {
     /// The coefficient γ [kg/s] at `overlap` δ > 0 [m], given what the normal law answered there.
     fn coefficient<R: Real>(&self, pair: &Pair<R>, overlap: R, normal: &NormalResponse<R>) -> R;
 
-    /// The largest coefficient [kg/s] that the pair can meet up to δ = `overlap_scale` [m].
+    /// The largest coefficient [kg/s] that the pair can meet up to the overlap that the normal law takes
+    /// as its scale.
     fn largest_coefficient(&self, pair: &Pair<f64>) -> f64;
 }
 

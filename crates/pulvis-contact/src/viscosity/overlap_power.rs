@@ -59,7 +59,7 @@ impl Law for OverlapPower {
 impl ViscousLaw for OverlapPower {
     #[inline(always)]
     fn coefficient<R: Real>(&self, _pair: &Pair<R>, overlap: R, normal: &NormalResponse<R>) -> R {
-        let relative = overlap / normal.overlap_scale;
+        let relative = overlap * normal.inverse_overlap_scale;
         // The usual exponents without the slow general power.
         let power = if self.exponent == 0.5 {
             relative.sqrt()

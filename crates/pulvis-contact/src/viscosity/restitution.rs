@@ -61,10 +61,10 @@ impl Law for Restitution {
 impl ViscousLaw for Restitution {
     #[inline(always)]
     fn coefficient<R: Real>(&self, pair: &Pair<R>, _overlap: R, _normal: &NormalResponse<R>) -> R {
-        R::splat(self.coefficient_per_root_mass) * pair.reduced_mass.sqrt()
+        R::splat(self.coefficient_per_root_mass) * pair.reduced_mass().sqrt()
     }
 
     fn largest_coefficient(&self, pair: &Pair<f64>) -> f64 {
-        self.coefficient_per_root_mass * pair.reduced_mass.sqrt()
+        self.coefficient_per_root_mass * pair.reduced_mass().sqrt()
     }
 }

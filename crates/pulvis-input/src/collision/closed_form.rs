@@ -7,7 +7,7 @@ use pulvis_contact::{ContactModel, NonContact, Normal, Pair};
 /// The closed forms of a pair, dashpots left out: of the Luding law, and of the linear law as its
 /// elastic limit kp = k1, kc = 0.
 pub fn luding_pair(contact: &ContactModel, pair: &Pair) -> Option<LudingPair> {
-    let (mass, radius) = (pair.reduced_mass, pair.harmonic_radius);
+    let (mass, radius) = (pair.reduced_mass(), pair.harmonic_radius());
     let parameters = match contact.normal {
         Normal::Luding(law) => LudingParameters::new(law.k1, law.kp, law.kc, law.phi_f, mass, radius)
             .with_interpolation(match law.interpolation {

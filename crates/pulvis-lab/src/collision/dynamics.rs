@@ -1,6 +1,8 @@
 //! The relative motion of two bodies along the line of their centres.
 
-use pulvis_contact::{Composition, ContactMemory, ContactResponse, Memory, NormalLaw, Pair, PairMotion};
+use pulvis_contact::{
+    Composition, ContactMemory, ContactResponse, Memory, NormalLaw, Pair, PairMotion, resistance,
+};
 use pulvis_math::Vector3;
 
 use super::extrapolation::State;
@@ -72,14 +74,18 @@ impl<N: NormalLaw> Dynamics<'_, N> {
             spin_i_mid: zero,
             spin_j_mid: zero,
         };
-        self.composition.respond::<f64, N, false>(&self.law, &self.pair, &motion, 0.0, memory)
+        self.composition.respond::<f64, N, { resistance::NONE }>(&self.law, &self.pair, &motion, 0.0, memory)
     }
 
     /// Rates of the motion with the memory as it stands: laws remember turning points only, and no
     /// step passes one.
     pub fn rate(&self, phase: Phase, motion: &Motion, memory: &ContactMemory<f64, N::Memory<f64>>) -> Motion {
         let response = self.respond(phase, motion, &mut memory.clone());
-        [motion[1], -response.normal_force / self.pair.reduced_mass, response.energies.viscous_power]
+        [
+            motion[1],
+            -response.normal_force * self.pair.inverse_reduced_mass(),
+            response.energies.viscous_power,
+        ]
     }
 
     /// The branches at an overlap.

@@ -28,7 +28,7 @@ impl<'c> Problem<'c> {
 
     /// Kinetic energy of the relative motion [J].
     pub fn kinetic(&self, velocity: f64) -> f64 {
-        0.5 * self.pair.reduced_mass * velocity * velocity
+        0.5 * self.pair.reduced_mass() * velocity * velocity
     }
 
     /// How far beyond touching the contact acts [m].
@@ -44,6 +44,6 @@ impl<'c> Problem<'c> {
 
     /// The stiffness that belongs to the shortest time, m_r (π/t)² [N/m].
     pub fn stiffness_scale(&self) -> f64 {
-        self.pair.reduced_mass * (std::f64::consts::PI / self.shortest_time).powi(2)
+        self.pair.reduced_mass() * (std::f64::consts::PI / self.shortest_time).powi(2)
     }
 }

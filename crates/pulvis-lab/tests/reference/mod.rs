@@ -87,7 +87,7 @@ impl Row {
 
     /// The unit of time √(m_r/k1) [s].
     pub fn time_unit(&self) -> f64 {
-        (self.bodies().pair().reduced_mass / self.number("k1")).sqrt()
+        (self.bodies().pair().reduced_mass() / self.number("k1")).sqrt()
     }
 
     pub fn describe(&self) -> String {

@@ -47,9 +47,9 @@ impl Dance {
         let body_j = body_j.unwrap_or((3.0 * body_i.0, 1.5 * body_i.1));
         let pair = pair_of(body_i, Some(body_j));
         let (scale, stiffest) = model.normal.accept(Scales(pair));
-        let depth = scale.min(0.05 * pair.harmonic_radius) * draw.log_between(0.05, 0.8);
+        let depth = scale.min(0.05 * pair.harmonic_radius()) * draw.log_between(0.05, 0.8);
         // Slow enough for springs to follow, fast enough for dashpots to be felt.
-        let duration = 20.0 * (pair.reduced_mass / stiffest).sqrt();
+        let duration = 20.0 * (pair.reduced_mass() / stiffest).sqrt();
         let slip = depth * draw.log_between(0.3, 10.0) / duration;
         let mut spin = || draw.vector() * (slip / body_i.1);
         let spins = [[spin(), spin()], [spin(), spin()]];
@@ -130,6 +130,6 @@ impl NormalLawVisitor for Scales {
     type Output = (f64, f64);
     fn visit<N: NormalLaw>(self, law: N) -> (f64, f64) {
         let mut memory = <N::Memory<f64>>::default();
-        (law.respond(&self.0, 0.0, &mut memory).overlap_scale, law.stiffest(&self.0))
+        (law.respond(&self.0, 0.0, &mut memory).inverse_overlap_scale.recip(), law.stiffest(&self.0))
     }
 }

@@ -2,7 +2,7 @@
 
 use pulvis_contact::{
     Composition, ContactMemory, ContactModel, ContactResponse, Memory, NormalLaw, NormalLawVisitor, Pair,
-    PairMotion,
+    PairMotion, resistance,
 };
 use pulvis_math::{Lanes, Real, Vector3};
 
@@ -31,10 +31,7 @@ impl NormalLawVisitor for Suite {
     type Output = ();
     fn visit<N: NormalLaw>(self, law: N) {
         let Self { composition, dances } = self;
-        let pairs = Pair::<Eight> {
-            reduced_mass: Eight::from_lanes(|lane| dances[lane].pair.reduced_mass),
-            harmonic_radius: Eight::from_lanes(|lane| dances[lane].pair.harmonic_radius),
-        };
+        let pairs = Pair::<Eight>::from_lanes(|lane| dances[lane].pair);
         let dt = dances[0].duration / STEPS as f64;
         let mut memory = ContactMemory::<Eight, N::Memory<Eight>>::default();
         let mut memories = [ContactMemory::<f64, N::Memory<f64>>::default(); 8];
@@ -52,10 +49,15 @@ impl NormalLawVisitor for Suite {
                     motion
                 })
                 .collect();
-            let together =
-                composition.respond::<Eight, N, true>(&law, &pairs, &gathered(&motions), dt, &mut memory);
+            let together = composition.respond::<Eight, N, { resistance::ALL }>(
+                &law,
+                &pairs,
+                &gathered(&motions),
+                dt,
+                &mut memory,
+            );
             for lane in 0..8 {
-                let alone = composition.respond::<f64, N, true>(
+                let alone = composition.respond::<f64, N, { resistance::ALL }>(
                     &law,
                     &dances[lane].pair,
                     &motions[lane],

@@ -10,17 +10,14 @@ type Eight = Lanes<8>;
 
 pub(super) fn lanes_give_the_bits_of_the_plain_number<N: NormalLaw>(law: N, draw: &mut Draw) {
     let pairs: Vec<Pair> = (0..8).map(|_| random_pair(draw)).collect();
-    let lanes = Pair::<Eight> {
-        reduced_mass: Eight::from_lanes(|lane| pairs[lane].reduced_mass),
-        harmonic_radius: Eight::from_lanes(|lane| pairs[lane].harmonic_radius),
-    };
+    let lanes = Pair::<Eight>::from_lanes(|lane| pairs[lane]);
     let mut memories = [<N::Memory<f64>>::default(); 8];
     let mut memory = <N::Memory<Eight>>::default();
     let reach = draw.log_between(1e-4, 0.3);
     for _ in 0..40 {
         let overlaps: Vec<f64> = pairs
             .iter()
-            .map(|pair| if draw.chance(0.1) { 0.0 } else { pair.harmonic_radius * reach * draw.unit() })
+            .map(|pair| if draw.chance(0.1) { 0.0 } else { pair.harmonic_radius() * reach * draw.unit() })
             .collect();
         let answer = law.respond(&lanes, Eight::from_lanes(|lane| overlaps[lane]), &mut memory);
         for lane in 0..8 {
@@ -44,7 +41,7 @@ fn numbers<R: Real>(answer: &NormalResponse<R>, lane: usize) -> [u64; 7] {
         answer.force,
         answer.friction_reference,
         answer.hardening,
-        answer.overlap_scale,
+        answer.inverse_overlap_scale,
         answer.stored_energy,
         answer.dissipated_plastic,
         answer.dissipated_adhesive,

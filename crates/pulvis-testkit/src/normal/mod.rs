@@ -52,10 +52,11 @@ impl<N: NormalLaw> Bench<N> {
     fn new(law: N, draw: &mut Draw) -> Self {
         let pair = random_pair(draw);
         let mut virgin = <N::Memory<f64>>::default();
-        let scale = law.respond(&pair, 1e-9 * pair.harmonic_radius, &mut virgin).overlap_scale;
+        let scale =
+            law.respond(&pair, 1e-9 * pair.harmonic_radius(), &mut virgin).inverse_overlap_scale.recip();
         assert!(scale > 0.0 && scale.is_finite(), "{law:?}: the overlap scale is {scale}");
         // Around the law's own scale, where that is a possible overlap; smaller where not.
-        let span = scale.min(0.3 * pair.harmonic_radius) * draw.log_between(0.1, 3.0);
+        let span = scale.min(0.3 * pair.harmonic_radius()) * draw.log_between(0.1, 3.0);
         let stiffest = law.stiffest(&pair);
         assert!(stiffest > 0.0 && stiffest.is_finite(), "{law:?}: the steepest slope is {stiffest}");
         Self { law, pair, span, force: stiffest * span }
