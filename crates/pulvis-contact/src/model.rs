@@ -201,6 +201,11 @@ impl Composition {
         self.sliding.is_some() || self.rolling.is_some() || self.torsion.is_some()
     }
 
+    /// Whether any of the laws against sliding, rolling and torsion has a dashpot.
+    pub fn has_resistance_dashpot(&self) -> bool {
+        [self.sliding, self.rolling, self.torsion].iter().flatten().any(|slider| slider.dashpot != 0.0)
+    }
+
     /// The lowest level of [`resistance`] that leaves none of the contact's laws out.
     pub fn resistance_level(&self) -> u8 {
         if self.rolling.is_some() || self.torsion.is_some() {

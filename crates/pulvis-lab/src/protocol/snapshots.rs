@@ -26,7 +26,7 @@ impl Snapshots {
         let contacts = Contacts::of(simulation);
         let particles = simulation.particles();
         let rows = particles.rows_by_id();
-        let vectors = |column: &[pulvis_math::Vector3]| -> Vec<[f64; 3]> {
+        let vectors = |column: pulvis_core::Vectors<'_>| -> Vec<[f64; 3]> {
             rows.iter().map(|&row| column[row].to_array()).collect()
         };
         let ids: Vec<i64> = rows.iter().map(|&row| i64::from(particles.ids()[row])).collect();
