@@ -108,12 +108,13 @@ impl Level {
     /// Place of the cell along each axis that a centre [m] is in.
     #[inline(always)]
     pub(super) fn places_at(&self, position: Vector3) -> [u32; 3] {
-        [0, 1, 2].map(|axis| {
+        let along = |axis: usize| {
             // Conversion cuts off at zero what lies below; round-off may put a wrapped particle on the
             // upper face.
             let place = (position[axis] - self.lower[axis]) * self.inverse_width[axis];
             (place as u32).min(self.bricks.along(axis) - 1)
-        })
+        };
+        [along(0), along(1), along(2)]
     }
 
     /// Number of the cell at a place along each axis.

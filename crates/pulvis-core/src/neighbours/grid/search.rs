@@ -69,7 +69,8 @@ impl CellGrid {
     fn list_adjacent(&self, level: &Level, places: [u32; 3], list: &mut Adjacent) -> u32 {
         let cell = level.number(places);
         let own = self.rows_of(cell);
-        let beside = [0, 1, 2].map(|axis| level.beside(axis, places[axis]));
+        let [x, y, z] = places;
+        let beside = [level.beside(0, x), level.beside(1, y), level.beside(2, z)];
         // Which cells come later and hold anything follows no pattern that a processor could learn:
         // every cell is written down, and what is not wanted or goes on where the last stretch ends
         // takes no new place.
