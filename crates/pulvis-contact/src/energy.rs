@@ -8,9 +8,17 @@ macro_rules! contact_energies {
     ($($(#[$doc:meta])* $account:ident),* $(,)?) => {
         /// What a contact holds now, what it has lost since the last call, and at which power its
         /// dashpots take energy now.
-        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct ContactEnergies<R = f64> {
             $($(#[$doc])* pub $account: R,)*
+        }
+
+        // Not derived: what is derived is not inlined by force.
+        impl<R: Real> Default for ContactEnergies<R> {
+            #[inline(always)]
+            fn default() -> Self {
+                Self { $($account: R::zero(),)* }
+            }
         }
 
         impl<R: Real> AddAssign for ContactEnergies<R> {

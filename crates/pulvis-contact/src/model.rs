@@ -97,7 +97,7 @@ pub struct PairMotion<R> {
 }
 
 /// Forces, torques and energies of a contact.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactResponse<R> {
     /// Total force along the normal, repulsion positive [N].
     pub normal_force: R,
@@ -109,6 +109,20 @@ pub struct ContactResponse<R> {
     pub torque_j: Vector3<R>,
     /// Energies.
     pub energies: ContactEnergies<R>,
+}
+
+// Not derived: what is derived is not inlined by force.
+impl<R: Real> Default for ContactResponse<R> {
+    #[inline(always)]
+    fn default() -> Self {
+        Self {
+            normal_force: R::zero(),
+            force: Vector3::zero(),
+            torque_i: Vector3::zero(),
+            torque_j: Vector3::zero(),
+            energies: ContactEnergies::default(),
+        }
+    }
 }
 
 impl ContactModel {

@@ -70,17 +70,20 @@ impl Images {
         if !self.any {
             return separation;
         }
-        let along = |component: R, period: f64| {
-            let (whole, half) = (R::splat(period), R::splat(0.5 * period));
-            let lowered = R::select(component.gt(half), component - whole, component);
-            R::select(component.lt(-half), component + whole, lowered)
-        };
         Vector3::new(
-            along(separation.x, self.periods[0]),
-            along(separation.y, self.periods[1]),
-            along(separation.z, self.periods[2]),
+            nearest_along(separation.x, self.periods[0]),
+            nearest_along(separation.y, self.periods[1]),
+            nearest_along(separation.z, self.periods[2]),
         )
     }
+}
+
+/// One component of the nearest image.
+#[inline(always)]
+fn nearest_along<R: Real>(component: R, period: f64) -> R {
+    let (whole, half) = (R::splat(period), R::splat(0.5 * period));
+    let lowered = R::select(component.gt(half), component - whole, component);
+    R::select(component.lt(-half), component + whole, lowered)
 }
 
 #[cfg(test)]

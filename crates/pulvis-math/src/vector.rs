@@ -5,7 +5,7 @@ use std::ops::{Add, AddAssign, Index, Mul, Neg, Sub, SubAssign};
 use crate::real::Real;
 
 /// A vector in space with components over `R`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Vector3<R = f64> {
     /// Component along x.
@@ -118,6 +118,15 @@ impl Vector3<f64> {
     pub fn unit(self) -> Option<Self> {
         let norm = self.norm();
         (norm.is_finite() && norm > 0.0).then(|| self * (1.0 / norm))
+    }
+}
+
+// Not derived: what is derived is not inlined by force, and out of line it is compiled without the vector
+// instructions of the loop that calls it.
+impl<R: Default> Default for Vector3<R> {
+    #[inline(always)]
+    fn default() -> Self {
+        Self { x: R::default(), y: R::default(), z: R::default() }
     }
 }
 

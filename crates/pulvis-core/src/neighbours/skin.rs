@@ -69,7 +69,7 @@ mod tests {
         let start = vec![Quad::default(); 2];
         skin.renew(&start, [0.0].into_iter());
         let outdated = |farthest: f64, wall: f64, places: &[Quad]| {
-            skin.outdated(skin.closed(farthest * farthest, [wall].into_iter()), positions)
+            skin.outdated(skin.closed(farthest * farthest, [wall].into_iter()), places)
         };
         assert_eq!(outdated(0.09, 0.09, &start), Outdated::No);
         assert_eq!(outdated(0.09, 0.12, &start), Outdated::Yes);

@@ -188,7 +188,12 @@ pub fn difference(domain: &Domain, these: &[State], those: &[State]) -> f64 {
 /// Sum of the sizes of all momenta [kg m/s].
 pub fn momentum_scale(simulation: &Simulation) -> f64 {
     let particles = simulation.particles();
-    particles.masses().iter().zip(particles.velocities()).map(|(mass, velocity)| mass * velocity.norm()).sum()
+    particles
+        .masses()
+        .iter()
+        .zip(particles.velocities().iter())
+        .map(|(mass, velocity)| mass * velocity.norm())
+        .sum()
 }
 
 /// The slope of log(error) over log(step) from the first to the last, each step half the one before.
