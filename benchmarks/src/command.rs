@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use pulvis_core::InstructionSet;
+
 use crate::failure::Failure;
 use crate::models::{ConventionChoice, LawChoice, model};
 use crate::workload::{bed, bidisperse, gas, tablet};
@@ -32,6 +34,9 @@ pub(crate) struct Run {
     /// Whether energies are accounted for.
     #[arg(long, value_enum, default_value_t = Ledger::On)]
     ledger: Ledger,
+    /// Instruction set; the widest of this machine where not given.
+    #[arg(long)]
+    instructions: Option<String>,
     /// Skin of the candidate list [m]; the engine's own choice where not given.
     #[arg(long)]
     pub(crate) skin: Option<f64>,
@@ -120,11 +125,21 @@ enum Choice {
 }
 
 impl Run {
-    /// Refuses what the engine cannot do yet.
-    fn checked(&self) -> Result<&Self, Failure> {
-        match self.ledger {
-            Ledger::On => Ok(self),
-            Ledger::Off => Err(Failure::Ledger),
+    /// Whether energies are accounted for.
+    pub(crate) fn has_ledger(&self) -> bool {
+        self.ledger == Ledger::On
+    }
+
+    /// The instruction set asked for, if any.
+    pub(crate) fn instructions(&self) -> Result<Option<InstructionSet>, Failure> {
+        let Some(name) = &self.instructions else { return Ok(None) };
+        let available = InstructionSet::available();
+        match available.iter().find(|set| set.to_string() == *name) {
+            Some(&set) => Ok(Some(set)),
+            None => Err(Failure::Instructions {
+                found: name.clone(),
+                expected: available.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
+            }),
         }
     }
 }
@@ -135,24 +150,24 @@ impl Arguments {
         match self.workload {
             Choice::Bed { table, law, run } => {
                 let model = model(law, bed::DAMPING_RATE, run.conventions)?;
-                timing::run("bed", bed::setup(&table, model, 0.0)?, run.checked()?)
+                timing::run("bed", bed::setup(&table, model, 0.0)?, &run)
             }
             Choice::Chute { table, law, run } => {
                 let model = model(law, bed::DAMPING_RATE, run.conventions)?;
-                timing::run("chute", bed::setup(&table, model, bed::CHUTE_ANGLE)?, run.checked()?)
+                timing::run("chute", bed::setup(&table, model, bed::CHUTE_ANGLE)?, &run)
             }
             Choice::Gas { table, particles, law, run } => {
                 let model = model(law, gas::DAMPING_RATE, run.conventions)?;
-                timing::run("gas", gas::setup(table.as_deref(), particles, model)?, run.checked()?)
+                timing::run("gas", gas::setup(table.as_deref(), particles, model)?, &run)
             }
             Choice::Tablet { particles, law, run } => {
                 let model = model(law, bed::DAMPING_RATE, run.conventions)?;
-                timing::run("tablet", tablet::setup(particles, model)?, run.checked()?)
+                timing::run("tablet", tablet::setup(particles, model)?, &run)
             }
             Choice::Bidisperse { ratio, small, large_per_edge, law, run } => {
                 let model = model(law, bed::DAMPING_RATE, run.conventions)?;
                 let plan = bidisperse::Plan { ratio, small, large_per_edge };
-                timing::run("bidisperse", bidisperse::setup(&plan, model)?, run.checked()?)
+                timing::run("bidisperse", bidisperse::setup(&plan, model)?, &run)
             }
             Choice::Kernels { only } => kernels::run(&only),
         }

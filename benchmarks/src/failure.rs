@@ -28,9 +28,9 @@ pub(crate) enum Failure {
     /// The tablet's lattice is a cube.
     #[error("{0} particles do not fill a cubic lattice; write for example 216 or 1728")]
     NoCube(usize),
-    /// No ledger.
-    #[error("the engine keeps its energy ledger in every step so far; write --ledger on")]
-    Ledger,
+    /// An instruction set that this machine does not have.
+    #[error("no instruction set `{found}` on this machine; it has {expected}")]
+    Instructions { found: String, expected: String },
     #[error(transparent)]
     Law(#[from] InputErrors),
     #[error(transparent)]

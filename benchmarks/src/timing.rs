@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
-use pulvis_core::{Setup, Simulation};
+use pulvis_core::{Phases, Setup, Simulation};
 
 use crate::command::Run;
 use crate::failure::Failure;
@@ -13,8 +13,7 @@ use crate::observed::{Observed, write_table};
 struct Times {
     wall: Duration,
     cpu: Duration,
-    /// Wall time of steps in which the candidates were listed anew.
-    renewing: Duration,
+    phases: Phases,
     rebuilds: u64,
 }
 
@@ -26,6 +25,12 @@ pub(crate) fn run(name: &str, setup: Setup, run: &Run) -> Result<(), Failure> {
         simulation.set_skin(skin)?;
     }
     simulation.set_threads(run.threads)?;
+    if let Some(instructions) = run.instructions()? {
+        simulation.set_instructions(instructions);
+    }
+    if !run.has_ledger() {
+        simulation.give_up_ledger();
+    }
     simulation.advance(run.warm_up)?;
     let times = timed_steps(&mut simulation, run.steps)?;
     print(name, &mut simulation, run.steps, &times);
@@ -36,29 +41,22 @@ pub(crate) fn run(name: &str, setup: Setup, run: &Run) -> Result<(), Failure> {
 }
 
 fn timed_steps(simulation: &mut Simulation, steps: u64) -> Result<Times, Failure> {
-    let at_start = simulation.rebuilds();
-    let mut rebuilds = at_start;
-    let mut renewing = Duration::ZERO;
+    let rebuilds = simulation.rebuilds();
+    simulation.watch_phases();
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
-    let mut begin = wall;
-    for _ in 0..steps {
-        simulation.step()?;
-        let end = Instant::now();
-        if simulation.rebuilds() != rebuilds {
-            rebuilds = simulation.rebuilds();
-            renewing += end - begin;
-        }
-        begin = end;
-    }
-    Ok(Times { wall: wall.elapsed(), cpu: cpu.elapsed(), renewing, rebuilds: rebuilds - at_start })
+    simulation.advance(steps)?;
+    Ok(Times {
+        wall: wall.elapsed(),
+        cpu: cpu.elapsed(),
+        phases: simulation.phases().unwrap_or_default(),
+        rebuilds: simulation.rebuilds() - rebuilds,
+    })
 }
 
 fn print(name: &str, simulation: &mut Simulation, steps: u64, times: &Times) {
     let observed = Observed::of(simulation);
     let count = simulation.particles().len();
     let wall = times.wall.as_secs_f64();
-    let plain = (times.wall - times.renewing).as_secs_f64() / (steps - times.rebuilds).max(1) as f64;
-    let neighbours = times.renewing.as_secs_f64() - plain * times.rebuilds as f64;
     let contacts = observed.pairs + observed.at_walls;
     println!("workload {name}");
     println!(
@@ -68,12 +66,19 @@ fn print(name: &str, simulation: &mut Simulation, steps: u64, times: &Times) {
         times.rebuilds,
         simulation.memory_size() as f64 / count.max(1) as f64,
     );
-    // The extra time of the steps with a new list: what neighbours cost beyond the usual step.
+    let Phases { pairs, walls, integration, neighbours } = times.phases;
+    // Threads work on everything but neighbours at the same time as the one that takes this time.
+    let whole = wall * simulation.threads() as f64;
+    let neighbours = neighbours * simulation.threads() as f64;
+    let share = |seconds: f64| 100.0 * seconds / whole;
     println!(
-        "neighbours {:.4} s ({:.1} %) other {:.4} s",
-        neighbours,
-        100.0 * neighbours / wall,
-        wall - neighbours
+        "pair {:.1} % walls {:.1} % integration {:.1} % neighbours {:.1} % other {:.1} % of {} x {wall:.4} s",
+        share(pairs),
+        share(walls),
+        share(integration),
+        share(neighbours),
+        share(whole - pairs - walls - integration - neighbours),
+        simulation.threads(),
     );
     println!(
         "kinetic energy {:.9e} J, of rotation {:.9e} J, coordination {:.6}, mean overlap {:.9e} m",

@@ -25,10 +25,6 @@ macro_rules! contact_energies {
             #[inline(always)]
             fn add_assign(&mut self, other: Self) {
                 $(self.$account += other.$account;)*
-                // The sum stays in memory. Carried in registers through a loop over contacts it would be
-                // eleven times eight numbers in the eyes of the compiler, which then loses track of
-                // which eight belong together and computes much of the loop one by one.
-                std::hint::black_box(self);
             }
         }
 

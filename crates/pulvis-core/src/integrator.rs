@@ -5,8 +5,7 @@ use std::ops::Range;
 use pulvis_math::{Kernel, Octet, Quad, Row};
 
 use crate::background::Background;
-use crate::contacts::Load;
-use crate::particles::Particles;
+use crate::particles::{Load, Particles};
 use crate::shared::Shared;
 
 /// The columns that the integrator works on; see [`Particles`] for what the quads hold.
@@ -17,8 +16,7 @@ pub(crate) struct Columns<'a> {
     spin: Shared<'a, Quad>,
     velocity_predicted: Shared<'a, Quad>,
     spin_predicted: Shared<'a, Quad>,
-    force: Shared<'a, Quad>,
-    torque: Shared<'a, Quad>,
+    pub(crate) loads: Shared<'a, Load>,
     mass: &'a [f64],
     /// Where the particles were when the candidates were listed.
     listed: &'a [Quad],
@@ -33,8 +31,7 @@ impl<'a> Columns<'a> {
             spin: Shared::new(&mut particles.spin),
             velocity_predicted: Shared::new(&mut particles.velocity_predicted),
             spin_predicted: Shared::new(&mut particles.spin_predicted),
-            force: Shared::new(&mut particles.force),
-            torque: Shared::new(&mut particles.torque),
+            loads: Shared::new(&mut particles.loads),
             mass: &particles.mass,
             listed,
         }
@@ -55,7 +52,7 @@ impl<'a> Columns<'a> {
 /// 1/I over 1/(m a²) of a solid sphere, I = 2/5 m a².
 const INVERSE_INERTIA: f64 = 2.5;
 
-/// First half kick and drift over a time step. Predicted velocities are those at the end of the step if
+/// First half kick and drift over a time step; loads are zero afterwards. Predicted velocities are those at the end of the step if
 /// forces stay as they are: what dashpots see, at the same instant as the positions.
 ///
 /// Answers with the largest square of the distance of any particle from where it was listed [m²],
@@ -83,24 +80,26 @@ impl Kernel for KickAndDrift<'_> {
         let half = 0.5 * time_step;
         let listed = &columns.listed[rows.clone()];
         // SAFETY: as `new` demands.
-        let (place, velocity, spin, velocity_predicted, spin_predicted, force, torque) = unsafe {
+        let (place, velocity, spin, velocity_predicted, spin_predicted, loads) = unsafe {
             (
                 columns.place.range_mut(rows.clone()),
                 columns.velocity.range_mut(rows.clone()),
                 columns.spin.range_mut(rows.clone()),
                 columns.velocity_predicted.range_mut(rows.clone()),
                 columns.spin_predicted.range_mut(rows.clone()),
-                columns.force.range_mut(rows.clone()),
-                columns.torque.range_mut(rows.clone()),
+                columns.loads.range_mut(rows.clone()),
             )
         };
-        let step = R::Row::splat(time_step);
+        let (step, zero) = (R::Row::splat(time_step), R::Row::splat(0.0));
         let mut farthest = 0.0;
         for row in 0..rows.len() {
             let (inverse_mass, inverse_radius) = (velocity[row].scalar, spin[row].scalar);
             let inverse_inertia = INVERSE_INERTIA * inverse_mass * inverse_radius * inverse_radius;
-            let kick = R::Row::load(&force[row]).times(R::Row::splat(half * inverse_mass));
-            let turn = R::Row::load(&torque[row]).times(R::Row::splat(half * inverse_inertia));
+            let kick = R::Row::load(&loads[row].force).times(R::Row::splat(half * inverse_mass));
+            let turn = R::Row::load(&loads[row].torque).times(R::Row::splat(half * inverse_inertia));
+            // The next loads are summed from zero.
+            zero.store(&mut loads[row].force);
+            zero.store(&mut loads[row].torque);
             let (velocity_before, spin_before) = (R::Row::load(&velocity[row]), R::Row::load(&spin[row]));
             let velocity_mid = velocity_before.plus(kick);
             let spin_mid = spin_before.plus(turn);
@@ -129,7 +128,6 @@ impl Kernel for KickAndDrift<'_> {
 pub(crate) struct Kick<'a> {
     columns: Columns<'a>,
     rows: Range<usize>,
-    loads: &'a [Load],
     background: &'a Background,
     half: f64,
 }
@@ -140,11 +138,10 @@ impl<'a> Kick<'a> {
     pub(crate) unsafe fn new(
         columns: Columns<'a>,
         rows: Range<usize>,
-        loads: &'a [Load],
         background: &'a Background,
         half: f64,
     ) -> Self {
-        Self { columns, rows, loads, background, half }
+        Self { columns, rows, background, half }
     }
 }
 
@@ -153,18 +150,17 @@ impl Kernel for Kick<'_> {
 
     #[inline(always)]
     fn run<R: Octet>(self) -> f64 {
-        let Self { columns, rows, loads, background, half } = self;
+        let Self { columns, rows, background, half } = self;
         let mass = &columns.mass[rows.clone()];
         // SAFETY: as `new` demands.
-        let (place, velocity, spin, velocity_predicted, spin_predicted, force, torque) = unsafe {
+        let (place, velocity, spin, velocity_predicted, spin_predicted, loads) = unsafe {
             (
                 columns.place.range_mut(rows.clone()),
                 columns.velocity.range_mut(rows.clone()),
                 columns.spin.range_mut(rows.clone()),
                 columns.velocity_predicted.range_mut(rows.clone()),
                 columns.spin_predicted.range_mut(rows.clone()),
-                columns.force.range_mut(rows.clone()),
-                columns.torque.range_mut(rows.clone()),
+                columns.loads.range_mut(rows.clone()),
             )
         };
         let gravity = R::Row::load(&Quad::new(background.gravity, 0.0));
@@ -182,8 +178,8 @@ impl Kernel for Kick<'_> {
                 push = push.minus(R::Row::load(&Quad::new(drag.force, 0.0)));
                 turn = turn.minus(R::Row::load(&Quad::new(drag.torque, 0.0)));
             }
-            push.store(&mut force[row]);
-            turn.store(&mut torque[row]);
+            push.store(&mut loads[row].force);
+            turn.store(&mut loads[row].torque);
             let (velocity_mid, spin_mid) = (R::Row::load(&velocity[row]), R::Row::load(&spin[row]));
             let kicked = velocity_mid.plus(push.times(R::Row::splat(half * inverse_mass)));
             let turned = spin_mid.plus(turn.times(R::Row::splat(half * inverse_inertia)));

@@ -46,11 +46,10 @@ pub struct Particles {
     pub(crate) velocity: Vec<Quad>,
     /// Spin [rad/s] and 1/radius [1/m].
     pub(crate) spin: Vec<Quad>,
-    // Result of the contact loop.
-    /// Force [N].
-    pub(crate) force: Vec<Quad>,
-    /// Torque [N m].
-    pub(crate) torque: Vec<Quad>,
+    // Result of the contact loop: force and torque of every row; behind them the parts of sums that
+    // are still to be brought together (see `Piece`). Between the two kicks of a step, what has been
+    // summed up so far.
+    pub(crate) loads: Vec<Load>,
     // Local to a step: what velocity and spin will be at its end if forces stay as they were.
     /// Velocity [m/s] and 1/radius [1/m].
     pub(crate) velocity_predicted: Vec<Quad>,
@@ -58,14 +57,44 @@ pub struct Particles {
     pub(crate) spin_predicted: Vec<Quad>,
 }
 
+/// Force and torque on a body.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, align(64))]
+pub(crate) struct Load {
+    /// Force [N].
+    pub(crate) force: Quad,
+    /// Torque [N m].
+    pub(crate) torque: Quad,
+}
+
 /// One vector of every particle.
 #[derive(Clone, Copy, Debug)]
-pub struct Vectors<'a>(&'a [Quad]);
+pub struct Vectors<'a>(Column<'a>);
+
+#[derive(Clone, Copy, Debug)]
+enum Column<'a> {
+    Quads(&'a [Quad]),
+    Forces(&'a [Load]),
+    Torques(&'a [Load]),
+}
 
 impl<'a> Vectors<'a> {
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        match self.0 {
+            Column::Quads(quads) => quads.len(),
+            Column::Forces(loads) | Column::Torques(loads) => loads.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// All of them, row by row.
-    pub fn iter(self) -> impl ExactSizeIterator<Item = Vector3> + use<'a> {
-        self.0.iter().map(|quad| quad.vector)
+    pub fn iter(self) -> impl Iterator<Item = Vector3> + use<'a> {
+        (0..self.len()).map(move |row| self[row])
     }
 }
 
@@ -73,7 +102,11 @@ impl Index<usize> for Vectors<'_> {
     type Output = Vector3;
     #[inline(always)]
     fn index(&self, row: usize) -> &Vector3 {
-        &self.0[row].vector
+        match self.0 {
+            Column::Quads(quads) => &quads[row].vector,
+            Column::Forces(loads) => &loads[row].force.vector,
+            Column::Torques(loads) => &loads[row].torque.vector,
+        }
     }
 }
 
@@ -94,8 +127,7 @@ impl Particles {
             place: column(|particle| Quad::new(particle.position, particle.radius)),
             velocity: column(|particle| Quad::new(particle.velocity, 1.0 / particle.mass)),
             spin: column(|particle| Quad::new(particle.spin, 1.0 / particle.radius)),
-            force: vec![Quad::default(); particles.len()],
-            torque: vec![Quad::default(); particles.len()],
+            loads: vec![Load::default(); particles.len()],
             velocity_predicted: column(|particle| Quad::new(particle.velocity, 1.0 / particle.radius)),
             spin_predicted: column(|particle| Quad::new(particle.spin, 1.0 / particle.radius)),
         }
@@ -133,27 +165,27 @@ impl Particles {
 
     /// Centres [m].
     pub fn positions(&self) -> Vectors<'_> {
-        Vectors(&self.place)
+        Vectors(Column::Quads(&self.place))
     }
 
     /// Velocities [m/s].
     pub fn velocities(&self) -> Vectors<'_> {
-        Vectors(&self.velocity)
+        Vectors(Column::Quads(&self.velocity))
     }
 
     /// Angular velocities [rad/s].
     pub fn spins(&self) -> Vectors<'_> {
-        Vectors(&self.spin)
+        Vectors(Column::Quads(&self.spin))
     }
 
     /// Total forces [N].
     pub fn forces(&self) -> Vectors<'_> {
-        Vectors(&self.force)
+        Vectors(Column::Forces(&self.loads[..self.len()]))
     }
 
     /// Total torques [N m].
     pub fn torques(&self) -> Vectors<'_> {
-        Vectors(&self.torque)
+        Vectors(Column::Torques(&self.loads[..self.len()]))
     }
 
     /// The rows in the order of their ids: what files and interfaces should iterate over.
@@ -169,7 +201,8 @@ impl Particles {
         0.4 * self.mass[row] * self.radius[row] * self.radius[row]
     }
 
-    /// Puts the rows into a new order: row k becomes what was row `order[k]`.
+    /// Puts the rows into a new order: row k becomes what was row `order[k]`. Loads are not moved: they are
+    /// computed anew after every change of order.
     pub(crate) fn reorder(&mut self, order: &[u32]) {
         reorder(&mut self.id, order);
         reorder(&mut self.material, order);
@@ -179,8 +212,6 @@ impl Particles {
             &mut self.place,
             &mut self.velocity,
             &mut self.spin,
-            &mut self.force,
-            &mut self.torque,
             &mut self.velocity_predicted,
             &mut self.spin_predicted,
         ] {
@@ -188,9 +219,9 @@ impl Particles {
         }
     }
 
-    /// Memory of a particle's row in all columns [byte].
+    /// Memory of a particle's row in all columns but the loads [byte].
     pub(crate) const BYTES: usize =
-        7 * size_of::<Quad>() + 2 * size_of::<f64>() + size_of::<ParticleId>() + size_of::<MaterialIndex>();
+        5 * size_of::<Quad>() + 2 * size_of::<f64>() + size_of::<ParticleId>() + size_of::<MaterialIndex>();
 
     /// Sum of all momenta [kg m/s].
     pub fn momentum(&self) -> Vector3 {

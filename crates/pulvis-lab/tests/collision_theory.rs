@@ -30,11 +30,15 @@ fn agree(points: &[SweepPoint]) {
             point.collision.outcome;
         let at = point.case.value;
         assert_eq!(point.collision.outcome.regime, theory.regime, "at {at}");
-        // Round-off of some dozen steps, in e amplified next to thresholds.
+        // Round-off of some dozen steps.
         let near = |what: &str, got: f64, expected: f64, scale: f64| {
             assert!((got - expected).abs() <= 1e-10 * scale, "{what} at {at}: {got} for {expected}");
         };
-        near("restitution", restitution, theory.restitution, theory.restitution);
+        // The round-off is one of the energy that is left, e² of what there was: up to 1.5e-12 where a
+        // slow pair is attracted, whose energies within the contact are many times that before it. Next to
+        // thresholds e is small, and what is the same to e² is more to e.
+        let squared = theory.restitution * theory.restitution;
+        near("squared restitution", restitution * restitution, squared, squared.max(0.03));
         near("largest overlap", overlap_max, theory.overlap_max, theory.overlap_max);
         near("end", overlap_end, theory.overlap_end, theory.overlap_max);
         near("dissipated", energy_dissipated, theory.energy_dissipated, theory.energy_dissipated);

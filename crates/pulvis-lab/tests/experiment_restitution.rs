@@ -86,6 +86,9 @@ fn the_whole_sweep_agrees_with_theory() {
     for point in points {
         let theory = point.theory.unwrap();
         let (got, value) = (point.collision.outcome.restitution, theory.restitution);
-        assert!((got - value).abs() <= expected.tolerance * value, "{}: {got} for {value}", point.case.value);
+        let near = (got - value).abs() <= expected.tolerance * value;
+        // At χ = 1/2, where the pair begins to stick, theory too leaves but the root of its round-off.
+        let both_are_round_off = got.max(value) < 1e-7;
+        assert!(near || both_are_round_off, "{}: {got} for {value}", point.case.value);
     }
 }

@@ -255,6 +255,22 @@ mod tests {
     }
 
     #[test]
+    fn without_a_limit_a_contact_sticks_whatever_pulls() {
+        for coefficient in [1e200, f64::INFINITY] {
+            let law =
+                SpringSlider { dynamic_coefficient: coefficient, static_coefficient: coefficient, ..LAW };
+            let motion = SpringMotion {
+                velocity: Vector3::zero(),
+                displacement: Vector3::new(3.0, 4.0, 0.0),
+                friction_reference: 1e-3,
+            };
+            let mut spring = Vector3::zero();
+            assert_eq!(law.respond(&motion, &mut spring).force, Vector3::new(-300.0, -400.0, 0.0));
+            assert_eq!(spring, motion.displacement);
+        }
+    }
+
+    #[test]
     fn slip_loses_what_the_spring_does_not_keep() {
         let mut spring = Vector3::zero();
         let (mut work, mut lost, mut force) = (0.0, 0.0, 0.0);

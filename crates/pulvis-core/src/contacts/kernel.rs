@@ -8,6 +8,7 @@ use pulvis_math::{InstructionSet, Kernel, Mask, Octet, Quad, Row, Vector3};
 use super::block::{ContactGroup, Partner, WIDTH, filled_lanes};
 use super::layout::{Lane, Layout};
 use crate::domain::Images;
+use crate::particles::Load;
 use crate::shared::Shared;
 
 /// The columns that contacts read. See [`Particles`](crate::Particles) for what the quads hold.
@@ -43,14 +44,6 @@ pub(crate) struct ContactTotals {
     pub(crate) force: Vector3,
 }
 
-/// Force [N] and torque [N m] on a body.
-#[derive(Clone, Copy, Debug, Default)]
-#[repr(C, align(64))]
-pub(crate) struct Load {
-    pub(crate) force: Quad,
-    pub(crate) torque: Quad,
-}
-
 /// How far bodies have moved since the candidates were listed, over which step, and how the loop is to
 /// run.
 #[derive(Clone, Copy, Debug)]
@@ -61,6 +54,8 @@ pub(crate) struct Advance {
     pub(crate) time_step: f64,
     /// The nearest-image rule.
     pub(crate) images: Images,
+    /// Whether times are taken.
+    pub(crate) timed: bool,
     /// Whether energies are summed up.
     pub(crate) ledger: bool,
     /// What the processor can do.
@@ -70,11 +65,11 @@ pub(crate) struct Advance {
 /// Computes a group's contacts, particle pairs or contacts with a wall, and adds their loads to `sums`.
 ///
 /// # Safety
-/// The group's rows lie within the columns of `moving`, its places of sums within `sums`, and nobody
-/// writes those rows meanwhile.
+/// The group's rows lie within the columns of `moving`, and nobody writes them meanwhile; its places of
+/// sums lie within `sums`, and nobody else uses them meanwhile.
 pub(crate) unsafe fn sweep(
     group: &mut ContactGroup,
-    sums: &mut [Load],
+    sums: Shared<'_, Load>,
     moving: Moving<'_>,
     walls: &[WallMotionNow],
     advance: &Advance,
@@ -91,7 +86,7 @@ pub(crate) unsafe fn sweep(
 /// What a loop works on.
 struct Loop<'a> {
     group: &'a mut ContactGroup,
-    sums: &'a mut [Load],
+    sums: Shared<'a, Load>,
     moving: Moving<'a>,
     advance: &'a Advance,
 }
@@ -153,10 +148,8 @@ fn rows_of<R: Octet>(vector: Vector3<R>) -> [R::Row; WIDTH] {
 macro_rules! add_rows {
     ($sums:expr, $places:expr, $part:ident, $sum:ident, $rows:expr) => {
         for lane in 0..WIDTH {
-            let place = $places[lane] as usize;
-            debug_assert!(place < $sums.len());
-            // SAFETY: places lie within the sums, as the caller of `sweep` vouches.
-            let slot = unsafe { &mut $sums.get_unchecked_mut(place).$part };
+            // SAFETY: places lie within the sums and are this loop's, as the caller of `sweep` vouches.
+            let slot = unsafe { &mut $sums.get_mut($places[lane] as usize).$part };
             R::Row::load(slot).$sum($rows[lane]).store(slot);
         }
     };

@@ -11,7 +11,7 @@ mod view;
 
 pub(crate) use block::Partner;
 pub use interactions::Interactions;
-pub(crate) use kernel::{Advance, Load, Moving, WallMotionNow};
+pub(crate) use kernel::{Advance, Moving, WallMotionNow};
 pub(crate) use rebuild::MemoryStore;
 pub(crate) use table::{ContactTable, Surroundings};
 pub use view::{ContactPartner, ContactView};

@@ -8,11 +8,15 @@ use super::block::{Candidate, ContactGroup, Partner};
 use super::rebuild::{MemoryStore, wall_partner};
 use super::table::Surroundings;
 use crate::neighbours::CellGrid;
+use crate::phases::Phases;
 
 /// Rows of a piece at the most, and at the least where there are enough for several pieces.
 const ROWS: Range<usize> = 64..1024;
 /// Pieces that small systems are cut into, so that several threads find work.
 const PIECES: usize = 16;
+
+/// Beyond any row.
+const HALO: u32 = 1 << 31;
 
 /// Candidates are sorted into blocks by their gap over the skin, up to these bounds: what touches now
 /// fills whole blocks, and blocks of what is far apart are passed over until something has moved.
@@ -21,19 +25,21 @@ const GAP_CLASSES: [f64; 3] = [0.05, 0.4, f64::INFINITY];
 /// Consecutive rows, and every contact whose lower row is one of them.
 ///
 /// Pieces are what threads take their work by. Each sums the loads of its contacts in places of its own:
-/// one for each of its rows, then one for each row of later pieces that it has contacts with (its halo).
-/// A row's load is the sum of its own place and of the halos of earlier pieces, in their order: no two
-/// threads write to the same place, and the order of every sum is fixed.
+/// those of its rows, and one for each row of later pieces that it has contacts with (its halo). A row's
+/// load is the sum of its own place and of the halos of earlier pieces, in their order: no two threads
+/// write to the same place, and the order of every sum is fixed.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Piece {
     pub(crate) rows: Range<usize>,
     pub(crate) groups: Vec<ContactGroup>,
     /// Rows of later pieces, in ascending order.
     pub(crate) halo: Vec<u32>,
-    /// Where its sums stand among those of all pieces.
-    pub(crate) sums: Range<usize>,
+    /// Where the sums of its halo begin.
+    pub(crate) halo_sums: usize,
     /// Parts of the halos of earlier pieces that are rows of this one.
     pub(crate) incoming: Vec<Incoming>,
+    /// Time spent on its contacts since it was listed.
+    pub(crate) phases: Phases,
     /// Later pieces that wait for this one.
     pub(crate) dependents: Vec<u32>,
 }
@@ -101,13 +107,24 @@ impl Piece {
         }
     }
 
-    /// The place among the piece's sums for the load on a row.
+    /// Where the load on a row is summed; places in the halo are counted from [`HALO`] on until it is
+    /// known where they begin.
     fn place_of_sum(&self, row: u32) -> u32 {
         if (row as usize) < self.rows.end {
-            return row - self.rows.start as u32;
+            return row;
         }
-        let slot = self.halo.partition_point(|&other| other < row);
-        (self.rows.len() + slot) as u32
+        HALO + self.halo.partition_point(|&other| other < row) as u32
+    }
+
+    /// Tells the contacts where the sums of the halo begin.
+    pub(crate) fn place_halo(&mut self, start: usize) {
+        self.halo_sums = start;
+        for group in &mut self.groups {
+            let places = group.first_sum.iter_mut().chain(&mut group.second_sum).flatten();
+            for place in places.filter(|place| **place >= HALO) {
+                *place = *place - HALO + start as u32;
+            }
+        }
     }
 
     fn list_walls(&mut self, around: &Surroundings<'_>, memory: &MemoryStore) {
@@ -122,8 +139,8 @@ impl Piece {
                     let gap = vector.dot(wall.normal) - scalar - touch;
                     if gap < skin {
                         let record = memory.find(particles.id[row], wall_partner(place), &group);
-                        let sum = (row - self.rows.start) as u32;
-                        let candidate = Candidate { rows: [row as u32; 2], sums: [sum; 2], gap };
+                        let rows = [row as u32; 2];
+                        let candidate = Candidate { rows, sums: rows, gap };
                         group.push(&candidate, record.as_deref());
                     }
                 }

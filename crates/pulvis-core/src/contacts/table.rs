@@ -8,12 +8,13 @@ use pulvis_math::Vector3;
 
 use super::Interactions;
 use super::block::{ContactGroup, Partner};
-use super::kernel::{Advance, Load, Moving, WallMotionNow, sweep};
+use super::kernel::{Advance, Moving, WallMotionNow, sweep};
 use super::piece::{Incoming, Piece, cut};
 use super::rebuild::MemoryStore;
 use crate::domain::Images;
 use crate::neighbours::CellGrid;
-use crate::particles::{MaterialIndex, Particles};
+use crate::particles::{Load, MaterialIndex, Particles};
+use crate::phases::Stopwatch;
 use crate::shared::Shared;
 use crate::team::Team;
 use crate::walls::Wall;
@@ -22,8 +23,6 @@ use crate::walls::Wall;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactTable {
     pieces: Vec<Piece>,
-    /// Loads on the rows of each piece and of its halo.
-    sums: Vec<Load>,
     pending: Vec<Countdown>,
 }
 
@@ -85,26 +84,28 @@ impl ContactTable {
         MemoryStore::gather(self.groups(), &particles.id)
     }
 
-    /// Lists all candidates within reach and skin; contacts keep their `memory`.
+    /// Lists all candidates within reach and skin; contacts keep their `memory`. Answers with the number
+    /// of places that the loads need, those of the rows first.
     pub(crate) fn rebuild(
         &mut self,
         around: &Surroundings<'_>,
         grid: &CellGrid,
         memory: &MemoryStore,
         team: &Team,
-    ) {
+    ) -> usize {
         self.pieces = cut(around.particles.len());
         team.for_each(&mut self.pieces, |_, piece| piece.list(around, grid, memory));
-        self.link();
+        self.link(around.particles.len())
     }
 
-    /// Gives every piece its sums, and tells it whose halos it takes part in.
-    fn link(&mut self) {
-        let mut end = 0;
+    /// Gives the halo of every piece its sums, which stand behind those of all `rows`, and tells every
+    /// piece whose halos it takes part in. Answers with the end of all sums.
+    fn link(&mut self, rows: usize) -> usize {
+        let mut end = rows;
         for number in 0..self.pieces.len() {
             let piece = &mut self.pieces[number];
-            piece.sums = end..end + piece.rows.len() + piece.halo.len();
-            end = piece.sums.end;
+            piece.place_halo(end);
+            end += piece.halo.len();
             let halo = piece.halo.clone();
             let mut slot = 0;
             while slot < halo.len() {
@@ -117,38 +118,38 @@ impl ContactTable {
                 slot = after;
             }
         }
-        self.sums.clear();
-        self.sums.resize(end, Load::default());
         let counts = self.pieces.iter().map(|piece| 1 + piece.incoming.len() as u32);
         self.pending = counts.map(Countdown::from).collect();
+        end
     }
 
-    /// Computes the loads of all contacts. When those on the rows of a piece are complete, and nobody
-    /// reads these rows any more, `finish` is called with the number of the piece, its rows and the
-    /// loads.
+    /// Adds the loads of all contacts to `loads`, which are zero at the start. When those on the rows of
+    /// a piece are complete, and nobody uses these rows any more, `finish` is called with the number of
+    /// the piece and its rows.
     pub(crate) fn sweep(
         &mut self,
+        loads: Shared<'_, Load>,
         moving: Moving<'_>,
         walls: &[WallMotionNow],
         advance: &Advance,
         team: &Team,
-        finish: impl Fn(usize, Range<usize>, &[Load]) + Sync,
+        finish: impl Fn(usize, Range<usize>) + Sync,
     ) {
         let count = self.pieces.len();
-        let (pieces, sums) = (Shared::new(&mut self.pieces), Shared::new(&mut self.sums));
+        let pieces = Shared::new(&mut self.pieces);
         let pending = &self.pending;
         team.for_each_number(count, |number| {
-            {
-                // SAFETY: nobody looks at a piece, or at its sums, before it has counted down below.
-                let piece = unsafe { pieces.get_mut(number) };
-                let own = unsafe { sums.range_mut(piece.sums.clone()) };
-                own.fill(Load::default());
-                for group in &mut piece.groups {
-                    // SAFETY: rows and places were listed for these columns and sums. `finish`, which
-                    // writes rows, is not called for rows of this piece or its halo before it has
-                    // counted down.
-                    unsafe { sweep(group, own, moving, walls, advance) };
-                }
+            // SAFETY: nobody looks at a piece before it has counted down below.
+            let Piece { groups, phases, .. } = unsafe { pieces.get_mut(number) };
+            let mut clock = Stopwatch::start(advance.timed);
+            for group in groups {
+                // SAFETY: rows and places were listed for these columns and loads. `finish`, which writes
+                // rows, is not called for rows of this piece or its halo before it has counted down.
+                unsafe { sweep(group, loads, moving, walls, advance) };
+                clock.lap(match group.partner {
+                    Partner::Particle => &mut phases.pairs,
+                    Partner::Wall(_) => &mut phases.walls,
+                });
             }
             // SAFETY: from here on the piece is only read, until the next sweep.
             let piece = unsafe { pieces.get(number) };
@@ -157,9 +158,9 @@ impl ContactTable {
                 if pending[ready].is_over() {
                     // SAFETY: the sweep over the piece and over all with a part in it is over; this
                     // thread alone has seen the end of the countdown.
-                    let loads = unsafe { complete(pieces, sums, ready) };
+                    unsafe { complete(pieces, loads, ready) };
                     let rows = unsafe { pieces.get(ready) }.rows.clone();
-                    finish(ready, rows, loads);
+                    finish(ready, rows);
                 }
             }
         });
@@ -191,31 +192,27 @@ impl ContactTable {
     /// Memory of the whole table [byte].
     pub(crate) fn memory_size(&self) -> usize {
         let halos: usize = self.pieces.iter().map(|piece| size_of_val(&piece.halo[..])).sum();
-        self.groups().map(ContactGroup::memory_size).sum::<usize>() + halos + size_of_val(&self.sums[..])
+        self.groups().map(ContactGroup::memory_size).sum::<usize>() + halos
     }
 }
 
-/// The loads on the rows of a piece, with what earlier pieces' halos hold of them.
+/// Adds to the loads on the rows of a piece what earlier pieces' halos hold of them, and leaves zeros
+/// there.
 ///
 /// # Safety
 /// All contacts of the piece and of those with a part in it have been computed, and no other thread
 /// completes the same piece.
-unsafe fn complete<'a>(pieces: Shared<'_, Piece>, sums: Shared<'a, Load>, number: usize) -> &'a [Load] {
-    // SAFETY: the caller's; own sums of a piece and its halo's are different parts of `sums`.
+unsafe fn complete(pieces: Shared<'_, Piece>, loads: Shared<'_, Load>, number: usize) {
+    // SAFETY: the caller's; a part of a halo belongs to the rows of one piece only.
     unsafe {
-        let piece = pieces.get(number);
-        let start = piece.sums.start;
-        let own = sums.range_mut(start..start + piece.rows.len());
-        for Incoming { source, slots } in &piece.incoming {
+        for Incoming { source, slots } in &pieces.get(number).incoming {
             let source = pieces.get(*source as usize);
-            let halo_start = source.sums.start + source.rows.len();
             for slot in slots.start as usize..slots.end as usize {
-                let part = sums.get(halo_start + slot);
-                let sum = &mut own[source.halo[slot] as usize - piece.rows.start];
+                let part = std::mem::take(loads.get_mut(source.halo_sums + slot));
+                let sum = loads.get_mut(source.halo[slot] as usize);
                 sum.force.vector += part.force.vector;
                 sum.torque.vector += part.torque.vector;
             }
         }
-        own
     }
 }

@@ -14,7 +14,8 @@ use crate::domain::Domain;
 use crate::integrator::{Columns, Kick, KickAndDrift};
 use crate::ledger::Running;
 use crate::neighbours::{CellGrid, Outdated, Skin};
-use crate::particles::{MaterialIndex, Particle, Particles};
+use crate::particles::{Load, MaterialIndex, Particle, Particles};
+use crate::phases::{Phases, Stopwatch};
 use crate::shared::Shared;
 use crate::team::Team;
 use crate::walls::{Extent, FaceArea, Wall, WallMotion, WallState};
@@ -54,6 +55,8 @@ pub struct Simulation {
     team: Team,
     instructions: InstructionSet,
     accounting: bool,
+    /// Where the time goes, if anybody wants to know; up to the last list of candidates.
+    phases: Option<Phases>,
     /// The materials of all particles, each once.
     materials: Vec<MaterialIndex>,
     /// Scratch: what came out of the integration of each piece.
@@ -73,6 +76,8 @@ struct Outcome {
     power: f64,
     /// Largest square of the distance of any particle from where it was listed [m²].
     farthest: f64,
+    /// Time spent since the candidates were listed [s].
+    seconds: f64,
 }
 
 /// The skin of the candidate list over the mean radius. Thicker lists are renewed less often but hold
@@ -101,6 +106,7 @@ impl Simulation {
             team: Team::default(),
             instructions: InstructionSet::widest(),
             accounting: true,
+            phases: None,
             materials: Vec::new(),
             outcomes: Vec::new(),
             walls_now: Vec::new(),
@@ -211,10 +217,13 @@ impl Simulation {
         let pieces = self.contacts.pieces();
         let columns = Columns::of(&mut self.particles, self.skin.listed());
         let (instructions, time_step) = (self.instructions, self.time_step);
+        let timed = self.phases.is_some();
         self.team.for_each(&mut self.outcomes, |number, outcome| {
+            let mut clock = Stopwatch::start(timed);
             let rows = pieces[number].rows.clone();
             // SAFETY: pieces have different rows.
             outcome.farthest = instructions.run(unsafe { KickAndDrift::new(columns, rows, time_step) });
+            clock.lap(&mut outcome.seconds);
         });
         farthest(&self.outcomes)
     }
@@ -275,6 +284,7 @@ impl Simulation {
         let advance = Advance {
             closed,
             time_step,
+            timed: self.phases.is_some(),
             images: self.domain.images(),
             ledger: self.accounting,
             instructions: self.instructions,
@@ -283,20 +293,22 @@ impl Simulation {
         let (instructions, background) = (self.instructions, &self.background);
         let outcomes = Shared::new(&mut self.outcomes);
         self.contacts.sweep(
+            columns.loads,
             columns.moving(),
             &self.walls_now,
             &advance,
             &self.team,
-            |number, rows, loads| {
+            |number, rows| {
                 // SAFETY: each piece is finished once, and nobody reads its rows any more.
                 unsafe {
                     let outcome = outcomes.get_mut(number);
+                    let mut clock = Stopwatch::start(advance.timed);
                     let half = 0.5 * time_step;
-                    outcome.power =
-                        instructions.run(Kick::new(columns, rows.clone(), loads, background, half));
+                    outcome.power = instructions.run(Kick::new(columns, rows.clone(), background, half));
                     if onwards {
                         outcome.farthest = instructions.run(KickAndDrift::new(columns, rows, time_step));
                     }
+                    clock.lap(&mut outcome.seconds);
                 }
             },
         );
@@ -316,6 +328,7 @@ impl Simulation {
         for (predicted, now) in particles.spin_predicted.iter_mut().zip(&particles.spin) {
             predicted.vector = now.vector;
         }
+        particles.loads.fill(Load::default());
         // No block is passed over: whatever was switched may act at once.
         let (background_power, _) = self.forces_and_kick(f64::INFINITY, true, false);
         self.running.take_in(self.contacts.energies(), background_power, 0.0);
@@ -325,9 +338,14 @@ impl Simulation {
     }
 
     fn renew_candidates(&mut self) {
+        let mut clock = Stopwatch::start(self.phases.is_some());
+        self.phases = self.phases();
         let memory = self.contacts.memory(&self.particles);
         self.rebuild(&memory);
         self.rebuilds += 1;
+        if let Some(phases) = &mut self.phases {
+            clock.lap(&mut phases.neighbours);
+        }
     }
 
     /// Puts the particles into cell order and lists all candidates within reach and skin.
@@ -353,7 +371,9 @@ impl Simulation {
             images: self.domain.images(),
             skin: self.skin.thickness,
         };
-        self.contacts.rebuild(&around, &grid, memory, &self.team);
+        let places = self.contacts.rebuild(&around, &grid, memory, &self.team);
+        self.particles.loads.clear();
+        self.particles.loads.resize(places, Load::default());
         self.outcomes.clear();
         self.outcomes.resize(self.contacts.pieces().len(), Outcome::default());
         self.skin.renew(&self.particles.place, self.walls.iter().map(Wall::offset));
@@ -415,6 +435,16 @@ impl Simulation {
         self.step
     }
 
+    /// Where the time goes since [`watch_phases`](Self::watch_phases) was called, `None` if it was not.
+    pub fn phases(&self) -> Option<Phases> {
+        let mut sum = self.phases?;
+        for (piece, outcome) in self.contacts.pieces().iter().zip(&self.outcomes) {
+            sum += piece.phases;
+            sum.integration += outcome.seconds;
+        }
+        Some(sum)
+    }
+
     /// How often the list of candidates was renewed.
     pub fn rebuilds(&self) -> u64 {
         self.rebuilds
@@ -423,7 +453,8 @@ impl Simulation {
     /// Memory of particles, candidates and contact memory [byte].
     pub fn memory_size(&self) -> usize {
         // The skin keeps one more quad for each particle.
-        self.particles.len() * (Particles::BYTES + size_of::<Quad>()) + self.contacts.memory_size()
+        let rows = self.particles.len() * (Particles::BYTES + size_of::<Quad>());
+        rows + size_of_val(&self.particles.loads[..]) + self.contacts.memory_size()
     }
 
     /// Candidate contacts in the list.

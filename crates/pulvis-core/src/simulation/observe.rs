@@ -13,26 +13,27 @@ impl Simulation {
             let (mass, inertia) = (particles.mass[row], particles.inertia(row));
             translation += 0.5 * mass * particles.velocity[row].vector.norm_squared();
             rotation += 0.5 * inertia * particles.spin[row].vector.norm_squared();
-            discretisation += particles.force[row].vector.norm_squared() / mass
-                + particles.torque[row].vector.norm_squared() / inertia;
+            discretisation += particles.loads[row].force.vector.norm_squared() / mass
+                + particles.loads[row].torque.vector.norm_squared() / inertia;
         }
+        let unknown = if self.accounting { 0.0 } else { f64::NAN };
         let held = self.running.contacts;
         let mut ledger = Ledger {
             kinetic_translation: translation,
             kinetic_rotation: rotation,
             kinetic_discretisation: -0.125 * self.time_step * self.time_step * discretisation,
-            elastic_normal: held.elastic_normal,
-            elastic_sliding: held.elastic_sliding,
-            elastic_rolling: held.elastic_rolling,
-            elastic_torsion: held.elastic_torsion,
-            adhesive: held.adhesive_potential,
+            elastic_normal: held.elastic_normal + unknown,
+            elastic_sliding: held.elastic_sliding + unknown,
+            elastic_rolling: held.elastic_rolling + unknown,
+            elastic_torsion: held.elastic_torsion + unknown,
+            adhesive: held.adhesive_potential + unknown,
             gravity: self.background.potential(particles) + self.running.gravity_wrapped,
-            dissipated_plastic: held.dissipated_plastic,
-            dissipated_adhesive: held.dissipated_adhesive,
-            dissipated_viscous: self.running.viscous,
-            dissipated_sliding: held.dissipated_sliding,
-            dissipated_rolling: held.dissipated_rolling,
-            dissipated_torsion: held.dissipated_torsion,
+            dissipated_plastic: held.dissipated_plastic + unknown,
+            dissipated_adhesive: held.dissipated_adhesive + unknown,
+            dissipated_viscous: self.running.viscous + unknown,
+            dissipated_sliding: held.dissipated_sliding + unknown,
+            dissipated_rolling: held.dissipated_rolling + unknown,
+            dissipated_torsion: held.dissipated_torsion + unknown,
             dissipated_background: self.running.background,
             work_walls: self.wall_states.iter().map(|state| state.work_prescribed).sum(),
             work_servo: self.wall_states.iter().map(|state| state.work_servo).sum(),

@@ -5,6 +5,7 @@ use pulvis_math::InstructionSet;
 use super::{SetupError, Simulation};
 use crate::background::Background;
 use crate::contacts::Interactions;
+use crate::phases::Phases;
 use crate::team::Team;
 use crate::walls::WallMotion;
 
@@ -35,6 +36,18 @@ impl Simulation {
     /// results are the same for all.
     pub fn set_instructions(&mut self, instructions: InstructionSet) {
         self.instructions = instructions;
+    }
+
+    /// From now on takes the times of the parts of a step: see [`phases`](Self::phases).
+    pub fn watch_phases(&mut self) {
+        self.phases = Some(Phases::default());
+    }
+
+    /// Gives the energy ledger up, for good: contacts are faster without it. The accounts of contacts and
+    /// what follows from them are no numbers from now on; kinetic energy and the potential of gravity
+    /// stay.
+    pub fn give_up_ledger(&mut self) {
+        self.accounting = false;
     }
 
     /// Sets another gravity and drag.
