@@ -31,6 +31,12 @@ impl<'a, T> Shared<'a, T> {
         Self { start: slice.as_mut_ptr(), length: slice.len(), slice: PhantomData }
     }
 
+    /// Has an item brought near; any place will do.
+    #[inline(always)]
+    pub(crate) fn prefetch(&self, place: usize) {
+        pulvis_math::prefetch(self.start.wrapping_add(place));
+    }
+
     /// One item, for reading.
     ///
     /// # Safety

@@ -16,11 +16,13 @@
 mod dimension;
 mod lanes;
 mod octet;
+mod prefetch;
 mod real;
 mod vector;
 
 pub use dimension::Dimension;
 pub use lanes::{LaneMask, Lanes};
 pub use octet::{InstructionSet, Kernel, Octet, Quad, Row};
+pub use prefetch::prefetch;
 pub use real::{Mask, Real};
 pub use vector::Vector3;

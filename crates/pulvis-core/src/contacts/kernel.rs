@@ -1,5 +1,7 @@
 //! The contact loop: the same text for every law and instruction set.
 
+use std::ops::Range;
+
 use pulvis_contact::{
     Composition, ContactEnergies, ContactResponse, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance,
 };
@@ -73,13 +75,14 @@ pub(crate) unsafe fn sweep(
     moving: Moving<'_>,
     walls: &[WallMotionNow],
     advance: &Advance,
+    ahead: Range<usize>,
 ) {
     let normal = group.model.normal;
-    match group.partner {
-        Partner::Particle => normal.accept(PairSweep(Loop { group, sums, moving, advance })),
-        Partner::Wall(place) => {
-            normal.accept(WallSweep(Loop { group, sums, moving, advance }, walls[place]));
-        }
+    let partner = group.partner;
+    let contacts = Loop { group, sums, moving, advance, ahead };
+    match partner {
+        Partner::Particle => normal.accept(PairSweep(contacts)),
+        Partner::Wall(place) => normal.accept(WallSweep(contacts, walls[place])),
     }
 }
 
@@ -89,6 +92,27 @@ struct Loop<'a> {
     sums: Shared<'a, Load>,
     moving: Moving<'a>,
     advance: &'a Advance,
+    /// Rows that are likely to be needed next.
+    ahead: Range<usize>,
+}
+
+impl Loop<'_> {
+    /// Has the next `count` of the rows ahead brought near.
+    #[inline(always)]
+    fn look_ahead(moving: Moving<'_>, sums: Shared<'_, Load>, ahead: &mut Range<usize>, count: usize) {
+        // Two quads in a cache line.
+        let end = (ahead.start + count).min(ahead.end);
+        for row in (ahead.start..end).step_by(2) {
+            moving.place.prefetch(row);
+            moving.velocity_mid.prefetch(row);
+            moving.velocity.prefetch(row);
+            moving.spin_mid.prefetch(row);
+            moving.spin.prefetch(row);
+            sums.prefetch(row);
+            sums.prefetch(row + 1);
+        }
+        ahead.start = end;
+    }
 }
 
 struct PairSweep<'a>(Loop<'a>);
@@ -155,6 +179,49 @@ macro_rules! add_rows {
     };
 }
 
+/// Blocks that are gathered before any of them is computed, and computed before any of them is added
+/// up. A block takes more instructions than a processor looks ahead; short loops one after the other
+/// let it work on several blocks at a time, and need fewer registers.
+const BATCH: usize = 4;
+
+/// A block between the loops.
+#[derive(Clone, Copy)]
+struct Pending<R> {
+    block: usize,
+    pair: Pair<R>,
+    motion: PairMotion<R>,
+    force: Vector3<R>,
+    torque_i: Vector3<R>,
+    torque_j: Vector3<R>,
+}
+
+impl<R: Octet> Default for Pending<R> {
+    #[inline(always)]
+    fn default() -> Self {
+        let (zero, vector) = (R::zero(), Vector3::zero());
+        Self {
+            block: 0,
+            pair: Pair::wall_from_inverses(zero, zero),
+            motion: PairMotion {
+                normal: vector,
+                overlap: zero,
+                inverse_distance: zero,
+                radius_i: zero,
+                radius_j: zero,
+                velocity: vector,
+                velocity_mid: vector,
+                spin_i: vector,
+                spin_j: vector,
+                spin_i_mid: vector,
+                spin_j_mid: vector,
+            },
+            force: vector,
+            torque_i: vector,
+            torque_j: vector,
+        }
+    }
+}
+
 struct PairLoop<'a, N, const RESISTANCE: u8, const LEDGER: bool> {
     law: N,
     contacts: Loop<'a>,
@@ -165,88 +232,104 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
 
     #[inline(always)]
     fn run<R: Octet>(self) {
-        let Self { law, contacts: Loop { group, sums, moving, advance } } = self;
+        let Self { law, contacts: Loop { group, sums, moving, advance, mut ahead } } = self;
         // By value: not to be read anew after every store.
         let (composition, layout, advance) = (group.model.composition, group.layout, *advance);
         let columns = layout.columns();
         let turning_dashpots = composition.has_resistance_dashpot();
         let reach = R::splat(-composition.noncontact.reach());
         let mut energies = ContactEnergies::<R>::default();
-        for block in 0..group.first.len() {
-            if group.gap[block] > advance.closed && !group.live[block] {
-                continue;
-            }
-            let (first, second) = (&group.first[block], &group.second[block]);
-            // SAFETY (here and below): rows lie within the columns, as the caller of `sweep` vouches.
-            let (centre_i, radius_i) = unsafe { gather::<R>(moving.place, first) };
-            let (centre_j, radius_j) = unsafe { gather::<R>(moving.place, second) };
-            let separation = advance.images.nearest(centre_i - centre_j);
-            let distance = separation.norm();
-            let overlap = radius_i + radius_j - distance;
-            let filled = group.filled(block);
-            // Idle lanes are out of any reach.
-            let overlap = R::select(filled_lanes::<R>(filled), overlap, reach + reach - radius_i);
-            let acts = overlap.gt(reach).any();
-            if !acts && !group.live[block] {
-                continue;
-            }
-            group.live[block] = acts;
-            let inverse_distance = R::one() / distance;
-            let (mid_i, inverse_mass_i) = unsafe { gather::<R>(moving.velocity_mid, first) };
-            let (mid_j, inverse_mass_j) = unsafe { gather::<R>(moving.velocity_mid, second) };
-            let (velocity_i, inverse_radius_i) = unsafe { gather::<R>(moving.velocity, first) };
-            let (velocity_j, inverse_radius_j) = unsafe { gather::<R>(moving.velocity, second) };
-            let (mut spin_i_mid, mut spin_j_mid) = (Vector3::zero(), Vector3::zero());
-            let (mut spin_i, mut spin_j) = (Vector3::zero(), Vector3::zero());
-            if RESISTANCE != resistance::NONE {
-                spin_i_mid = unsafe { gather::<R>(moving.spin_mid, first) }.0;
-                spin_j_mid = unsafe { gather::<R>(moving.spin_mid, second) }.0;
-                (spin_i, spin_j) = (spin_i_mid, spin_j_mid);
-                if turning_dashpots {
-                    spin_i = unsafe { gather::<R>(moving.spin, first) }.0;
-                    spin_j = unsafe { gather::<R>(moving.spin, second) }.0;
+        let mut batch = [Pending::<R>::default(); BATCH];
+        let blocks = group.first.len();
+        let mut next = 0;
+        let rows_a_batch = (ahead.len() * BATCH / blocks).next_multiple_of(2);
+        while next < blocks {
+            Loop::look_ahead(moving, sums, &mut ahead, rows_a_batch);
+            let mut count = 0;
+            while next < blocks && count < BATCH {
+                let block = next;
+                next += 1;
+                if group.gap[block] > advance.closed && !group.live[block] {
+                    continue;
+                }
+                let (first, second) = (&group.first[block], &group.second[block]);
+                // SAFETY (here and below): rows lie within the columns, as the caller of `sweep` vouches.
+                let (centre_i, radius_i) = unsafe { gather::<R>(moving.place, first) };
+                let (centre_j, radius_j) = unsafe { gather::<R>(moving.place, second) };
+                let separation = advance.images.nearest(centre_i - centre_j);
+                let distance = separation.norm();
+                let overlap = radius_i + radius_j - distance;
+                // Idle lanes are out of any reach.
+                let filled = filled_lanes::<R>(group.filled(block));
+                let overlap = R::select(filled, overlap, reach + reach - radius_i);
+                let acts = overlap.gt(reach).any();
+                if !acts && !group.live[block] {
+                    continue;
+                }
+                group.live[block] = acts;
+                let inverse_distance = R::one() / distance;
+                let (mid_i, inverse_mass_i) = unsafe { gather::<R>(moving.velocity_mid, first) };
+                let (mid_j, inverse_mass_j) = unsafe { gather::<R>(moving.velocity_mid, second) };
+                let (velocity_i, inverse_radius_i) = unsafe { gather::<R>(moving.velocity, first) };
+                let (velocity_j, inverse_radius_j) = unsafe { gather::<R>(moving.velocity, second) };
+                let pending = &mut batch[count];
+                count += 1;
+                pending.block = block;
+                pending.pair = Pair::spheres_from_inverses(
+                    inverse_mass_i,
+                    inverse_mass_j,
+                    inverse_radius_i,
+                    inverse_radius_j,
+                );
+                let motion = &mut pending.motion;
+                motion.normal = separation * inverse_distance;
+                motion.overlap = overlap;
+                motion.inverse_distance = inverse_distance;
+                motion.radius_i = radius_i;
+                motion.radius_j = radius_j;
+                motion.velocity = velocity_i - velocity_j;
+                motion.velocity_mid = mid_i - mid_j;
+                if RESISTANCE != resistance::NONE {
+                    motion.spin_i_mid = unsafe { gather::<R>(moving.spin_mid, first) }.0;
+                    motion.spin_j_mid = unsafe { gather::<R>(moving.spin_mid, second) }.0;
+                    if turning_dashpots {
+                        motion.spin_i = unsafe { gather::<R>(moving.spin, first) }.0;
+                        motion.spin_j = unsafe { gather::<R>(moving.spin, second) }.0;
+                    }
                 }
             }
-            let motion = PairMotion {
-                normal: separation * inverse_distance,
-                overlap,
-                inverse_distance,
-                radius_i,
-                radius_j,
-                velocity: velocity_i - velocity_j,
-                velocity_mid: mid_i - mid_j,
-                spin_i,
-                spin_j,
-                spin_i_mid,
-                spin_j_mid,
-            };
-            let pair = Pair::spheres_from_inverses(
-                inverse_mass_i,
-                inverse_mass_j,
-                inverse_radius_i,
-                inverse_radius_j,
-            );
-            let memory = &mut group.memory[block * columns..(block + 1) * columns];
-            let answer = respond::<R, N, RESISTANCE>(
-                &law,
-                &composition,
-                &layout,
-                &pair,
-                &motion,
-                advance.time_step,
-                memory,
-            );
-            let force = rows_of::<R>(answer.force);
-            add_rows!(sums, group.first_sum[block], force, plus, force);
-            add_rows!(sums, group.second_sum[block], force, minus, force);
-            if RESISTANCE != resistance::NONE {
-                let torque = rows_of::<R>(answer.torque_i);
-                add_rows!(sums, group.first_sum[block], torque, plus, torque);
-                let torque = rows_of::<R>(answer.torque_j);
-                add_rows!(sums, group.second_sum[block], torque, plus, torque);
+            for pending in &mut batch[..count] {
+                let block = pending.block;
+                let memory = &mut group.memory[block * columns..(block + 1) * columns];
+                let answer = respond::<R, N, RESISTANCE>(
+                    &law,
+                    &composition,
+                    &layout,
+                    &pending.pair,
+                    &pending.motion,
+                    advance.time_step,
+                    memory,
+                );
+                pending.force = answer.force;
+                if RESISTANCE != resistance::NONE {
+                    pending.torque_i = answer.torque_i;
+                    pending.torque_j = answer.torque_j;
+                }
+                if LEDGER {
+                    energies += answer.energies;
+                }
             }
-            if LEDGER {
-                energies += answer.energies;
+            for pending in &batch[..count] {
+                let (first, second) = (&group.first_sum[pending.block], &group.second_sum[pending.block]);
+                let force = rows_of::<R>(pending.force);
+                add_rows!(sums, first, force, plus, force);
+                add_rows!(sums, second, force, minus, force);
+                if RESISTANCE != resistance::NONE {
+                    let torque = rows_of::<R>(pending.torque_i);
+                    add_rows!(sums, first, torque, plus, torque);
+                    let torque = rows_of::<R>(pending.torque_j);
+                    add_rows!(sums, second, torque, plus, torque);
+                }
             }
         }
         group.totals = ContactTotals { energies: energies.sum_lanes(), force: Vector3::zero() };
@@ -275,7 +358,7 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
 
     #[inline(always)]
     fn run<R: Octet>(self) {
-        let Self { law, contacts: Loop { group, sums, moving, advance }, wall } = self;
+        let Self { law, contacts: Loop { group, sums, moving, advance, .. }, wall } = self;
         let (composition, layout, advance) = (group.model.composition, group.layout, *advance);
         let columns = layout.columns();
         let reach = R::splat(-composition.noncontact.reach());

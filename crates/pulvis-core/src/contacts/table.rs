@@ -140,12 +140,14 @@ impl ContactTable {
         let pending = &self.pending;
         team.for_each_number(count, |number| {
             // SAFETY: nobody looks at a piece before it has counted down below.
-            let Piece { groups, phases, .. } = unsafe { pieces.get_mut(number) };
+            let Piece { rows, groups, phases, .. } = unsafe { pieces.get_mut(number) };
             let mut clock = Stopwatch::start(advance.timed);
-            for group in groups {
+            for (place, group) in groups.iter_mut().enumerate() {
+                // The largest group comes first; the rows behind this piece are mostly the next ones.
+                let ahead = if place == 0 { rows.end..rows.end + rows.len() } else { 0..0 };
                 // SAFETY: rows and places were listed for these columns and loads. `finish`, which writes
                 // rows, is not called for rows of this piece or its halo before it has counted down.
-                unsafe { sweep(group, loads, moving, walls, advance) };
+                unsafe { sweep(group, loads, moving, walls, advance, ahead) };
                 clock.lap(match group.partner {
                     Partner::Particle => &mut phases.pairs,
                     Partner::Wall(_) => &mut phases.walls,
