@@ -110,9 +110,11 @@ impl Index<usize> for Vectors<'_> {
     }
 }
 
-/// The column in a new order: row k becomes what was row `order[k]`.
-fn reorder<T: Copy>(column: &mut Vec<T>, order: &[u32]) {
-    *column = order.iter().map(|&row| column[row as usize]).collect();
+/// The column in a new order: row k becomes what was row `order[k]`. `spare` is exchanged for it.
+fn reorder<T: Copy>(column: &mut Vec<T>, order: &[u32], spare: &mut Vec<T>) {
+    spare.clear();
+    spare.extend(order.iter().map(|&row| column[row as usize]));
+    std::mem::swap(column, spare);
 }
 
 impl Particles {
@@ -204,10 +206,12 @@ impl Particles {
     /// Puts the rows into a new order: row k becomes what was row `order[k]`. Loads are not moved: they are
     /// computed anew after every change of order.
     pub(crate) fn reorder(&mut self, order: &[u32]) {
-        reorder(&mut self.id, order);
-        reorder(&mut self.material, order);
-        reorder(&mut self.radius, order);
-        reorder(&mut self.mass, order);
+        reorder(&mut self.id, order, &mut Vec::new());
+        reorder(&mut self.material, order, &mut Vec::new());
+        let mut numbers = Vec::with_capacity(order.len());
+        reorder(&mut self.radius, order, &mut numbers);
+        reorder(&mut self.mass, order, &mut numbers);
+        let mut quads = Vec::with_capacity(order.len());
         for column in [
             &mut self.place,
             &mut self.velocity,
@@ -215,7 +219,7 @@ impl Particles {
             &mut self.velocity_predicted,
             &mut self.spin_predicted,
         ] {
-            reorder(column, order);
+            reorder(column, order, &mut quads);
         }
     }
 

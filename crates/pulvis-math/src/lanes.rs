@@ -121,6 +121,10 @@ impl<const N: usize> Mask for LaneMask<N> {
     fn lane(self, lane: usize) -> bool {
         self.0[lane] != 0
     }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.0.iter().enumerate().fold(0, |bits, (lane, &value)| bits | ((value & 1) as u32) << lane)
+    }
 }
 
 macro_rules! lane_comparison {

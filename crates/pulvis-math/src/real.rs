@@ -13,6 +13,8 @@ pub trait Mask: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + No
     fn all(self) -> bool;
     /// The truth value of one lane.
     fn lane(self, lane: usize) -> bool;
+    /// One bit a lane, the first lane's the lowest.
+    fn bits(self) -> u32;
 }
 
 /// A scalar in which a force law is written once: `f64` for one contact, [`Lanes`](crate::Lanes)
@@ -115,6 +117,10 @@ impl Mask for bool {
     #[inline(always)]
     fn lane(self, _lane: usize) -> bool {
         self
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        u32::from(self)
     }
 }
 

@@ -58,22 +58,33 @@ pub(crate) struct Candidate {
 }
 
 impl ContactGroup {
-    /// A group without contacts.
-    pub(crate) fn new(model: ContactModel, partner: Partner) -> Self {
-        Self {
-            model,
-            layout: Layout::of(&model),
-            partner,
-            first: Vec::new(),
-            second: Vec::new(),
-            first_sum: Vec::new(),
-            second_sum: Vec::new(),
-            memory: Vec::new(),
-            live: Vec::new(),
-            gap: Vec::new(),
-            totals: ContactTotals::default(),
-            count: 0,
+    /// A group without contacts, in the memory of a `spare` one.
+    pub(crate) fn new(model: ContactModel, partner: Partner, spare: Option<Self>) -> Self {
+        let layout = Layout::of(&model);
+        let totals = ContactTotals::default();
+        let Some(mut group) = spare else {
+            return Self {
+                model,
+                layout,
+                partner,
+                first: Vec::new(),
+                second: Vec::new(),
+                first_sum: Vec::new(),
+                second_sum: Vec::new(),
+                memory: Vec::new(),
+                live: Vec::new(),
+                gap: Vec::new(),
+                totals,
+                count: 0,
+            };
+        };
+        for rows in [&mut group.first, &mut group.second, &mut group.first_sum, &mut group.second_sum] {
+            rows.clear();
         }
+        group.memory.clear();
+        group.live.clear();
+        group.gap.clear();
+        Self { model, layout, partner, totals, count: 0, ..group }
     }
 
     /// Number of candidate contacts.

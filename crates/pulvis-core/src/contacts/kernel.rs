@@ -75,7 +75,7 @@ pub(crate) unsafe fn sweep(
     moving: Moving<'_>,
     walls: &[WallMotionNow],
     advance: &Advance,
-    ahead: Range<usize>,
+    ahead: Ahead<'_>,
 ) {
     let normal = group.model.normal;
     let partner = group.partner;
@@ -92,17 +92,25 @@ struct Loop<'a> {
     sums: Shared<'a, Load>,
     moving: Moving<'a>,
     advance: &'a Advance,
-    /// Rows that are likely to be needed next.
-    ahead: Range<usize>,
+    ahead: Ahead<'a>,
+}
+
+/// Rows that are likely to be needed next.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ahead<'a> {
+    /// One behind the other.
+    pub(crate) rows: Range<usize>,
+    /// Here and there.
+    pub(crate) halo: &'a [u32],
 }
 
 impl Loop<'_> {
     /// Has the next `count` of the rows ahead brought near.
     #[inline(always)]
-    fn look_ahead(moving: Moving<'_>, sums: Shared<'_, Load>, ahead: &mut Range<usize>, count: usize) {
+    fn look_ahead(moving: Moving<'_>, sums: Shared<'_, Load>, ahead: &mut Ahead<'_>, counts: [usize; 2]) {
         // Two quads in a cache line.
-        let end = (ahead.start + count).min(ahead.end);
-        for row in (ahead.start..end).step_by(2) {
+        let end = (ahead.rows.start + counts[0]).min(ahead.rows.end);
+        for row in (ahead.rows.start..end).step_by(2) {
             moving.place.prefetch(row);
             moving.velocity_mid.prefetch(row);
             moving.velocity.prefetch(row);
@@ -111,7 +119,15 @@ impl Loop<'_> {
             sums.prefetch(row);
             sums.prefetch(row + 1);
         }
-        ahead.start = end;
+        ahead.rows.start = end;
+        let (near, later) = ahead.halo.split_at(counts[1].min(ahead.halo.len()));
+        for &row in near {
+            moving.place.prefetch(row as usize);
+            moving.velocity_mid.prefetch(row as usize);
+            moving.velocity.prefetch(row as usize);
+            moving.spin_mid.prefetch(row as usize);
+        }
+        ahead.halo = later;
     }
 }
 
@@ -242,9 +258,10 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
         let mut batch = [Pending::<R>::default(); BATCH];
         let blocks = group.first.len();
         let mut next = 0;
-        let rows_a_batch = (ahead.len() * BATCH / blocks).next_multiple_of(2);
+        let a_batch = |rows: usize| (rows * BATCH).div_ceil(blocks).next_multiple_of(2);
+        let counts = [a_batch(ahead.rows.len()), a_batch(ahead.halo.len())];
         while next < blocks {
-            Loop::look_ahead(moving, sums, &mut ahead, rows_a_batch);
+            Loop::look_ahead(moving, sums, &mut ahead, counts);
             let mut count = 0;
             while next < blocks && count < BATCH {
                 let block = next;

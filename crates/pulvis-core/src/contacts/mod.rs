@@ -1,6 +1,7 @@
 //! The contact table: candidate pairs in blocks of eight, and what each contact remembers.
 
 mod block;
+mod candidates;
 mod interactions;
 mod kernel;
 mod layout;

@@ -5,6 +5,7 @@ use std::ops::Range;
 use pulvis_math::Quad;
 
 use super::block::{Candidate, ContactGroup, Partner};
+use super::candidates;
 use super::rebuild::{MemoryStore, wall_partner};
 use super::table::Surroundings;
 use crate::neighbours::CellGrid;
@@ -20,7 +21,15 @@ const HALO: u32 = 1 << 31;
 
 /// Candidates are sorted into blocks by their gap over the skin, up to these bounds: what touches now
 /// fills whole blocks, and blocks of what is far apart are passed over until something has moved.
-const GAP_CLASSES: [f64; 3] = [0.05, 0.4, f64::INFINITY];
+const GAP_CLASSES: [f64; CLASSES] = [0.05, 0.4, f64::INFINITY];
+const CLASSES: usize = 3;
+
+/// Two rows near each other, the lower one first, and the gap between their reaches [m].
+#[derive(Clone, Copy, Debug)]
+struct Near {
+    rows: [u32; 2],
+    gap: f64,
+}
 
 /// Consecutive rows, and every contact whose lower row is one of them.
 ///
@@ -32,10 +41,8 @@ const GAP_CLASSES: [f64; 3] = [0.05, 0.4, f64::INFINITY];
 pub(crate) struct Piece {
     pub(crate) rows: Range<usize>,
     pub(crate) groups: Vec<ContactGroup>,
-    /// Rows of later pieces, in ascending order.
+    /// Rows of later pieces, in ascending order; only while candidates are listed.
     pub(crate) halo: Vec<u32>,
-    /// Where the sums of its halo begin.
-    pub(crate) halo_sums: usize,
     /// Parts of the halos of earlier pieces that are rows of this one.
     pub(crate) incoming: Vec<Incoming>,
     /// Time spent on its contacts since it was listed.
@@ -44,11 +51,11 @@ pub(crate) struct Piece {
     pub(crate) dependents: Vec<u32>,
 }
 
-/// A part of a piece's halo.
+/// A part of an earlier piece's halo.
 #[derive(Clone, Debug)]
 pub(crate) struct Incoming {
-    pub(crate) source: u32,
-    pub(crate) slots: Range<u32>,
+    /// Places in the list of the halos of all pieces.
+    pub(crate) slots: Range<usize>,
 }
 
 /// Cuts all rows into pieces, the same for any number of threads.
@@ -61,46 +68,65 @@ pub(crate) fn cut(rows: usize) -> Vec<Piece> {
 impl Piece {
     /// Lists the candidates anew; contacts keep their `memory`.
     pub(crate) fn list(&mut self, around: &Surroundings<'_>, grid: &CellGrid, memory: &MemoryStore) {
-        self.groups.clear();
-        self.list_pairs(around, grid, memory);
-        self.list_walls(around, memory);
+        let mut spare = std::mem::take(&mut self.groups);
+        self.incoming.clear();
+        self.dependents.clear();
+        self.phases = Phases::default();
+        self.list_pairs(around, grid, memory, &mut spare);
+        self.list_walls(around, memory, &mut spare);
     }
 
-    fn list_pairs(&mut self, around: &Surroundings<'_>, grid: &CellGrid, memory: &MemoryStore) {
+    /// Pairs that may touch before the next list, and how far they are from touching [m], for each pair of
+    /// materials and each class of gaps in cell order.
+    fn near_pairs(&mut self, around: &Surroundings<'_>, grid: &CellGrid) -> Vec<[Vec<Near>; CLASSES]> {
         let Surroundings { particles, interactions, images, skin, .. } = *around;
-        // For each pair of materials and each class of gaps, the candidates in cell order.
-        let mut listed: Vec<[Vec<(u32, u32, f64)>; GAP_CLASSES.len()]> =
-            vec![Default::default(); interactions.groups()];
+        let places = &particles.place;
+        let (mut stretches, mut pairs) = (Vec::new(), Vec::new());
         let rows = self.rows.start as u32..self.rows.end as u32;
-        let mut halo = Vec::new();
-        grid.for_each_pair_of(rows.clone(), around.positions, &particles.radius, |one, other| {
-            let (i, j) = (one as usize, other as usize);
+        grid.for_each_stretch_of(rows.clone(), places, |stretch| stretches.push(stretch));
+        let margin = interactions.reach() + skin;
+        let near = candidates::Near { stretches: &stretches, places, images, margin, pairs: &mut pairs };
+        around.instructions.run(near);
+        let mut listed: Vec<[Vec<Near>; CLASSES]> = vec![Default::default(); interactions.groups()];
+        self.halo.clear();
+        for rows_of_pair in pairs {
+            let [i, j] = rows_of_pair.map(|row| row as usize);
             let place = interactions.group(particles.material[i], particles.material[j]);
-            let Some(model) = interactions.model(place) else { return };
-            let (first, second) = (&particles.place[i], &particles.place[j]);
-            let touch = first.scalar + second.scalar + model.reach();
-            let squared = images.nearest(first.vector - second.vector).norm_squared();
-            if squared < (touch + skin) * (touch + skin) {
-                let gap = squared.sqrt() - touch;
-                listed[place][gap_class(gap, skin)].push((one, other, gap));
-                if other >= rows.end {
-                    halo.push(other);
+            let Some(model) = interactions.model(place) else { continue };
+            let touch = places[i].scalar + places[j].scalar + model.reach();
+            let gap = images.nearest(places[i].vector - places[j].vector).norm() - touch;
+            if gap < skin {
+                listed[place][gap_class(gap, skin)].push(Near { rows: rows_of_pair, gap });
+                if rows_of_pair[1] >= rows.end {
+                    self.halo.push(rows_of_pair[1]);
                 }
             }
-        });
-        halo.sort_unstable();
-        halo.dedup();
-        self.halo = halo;
+        }
+        self.halo.sort_unstable();
+        self.halo.dedup();
+        listed
+    }
+
+    fn list_pairs(
+        &mut self,
+        around: &Surroundings<'_>,
+        grid: &CellGrid,
+        memory: &MemoryStore,
+        spare: &mut Vec<ContactGroup>,
+    ) {
+        let listed = self.near_pairs(around, grid);
+        let id = &around.particles.id;
         for (place, classes) in listed.into_iter().enumerate() {
-            let Some(&model) = interactions.model(place) else { continue };
-            let mut group = ContactGroup::new(model, Partner::Particle);
-            for (one, other, gap) in classes.into_iter().flatten() {
-                let (first, second) = (particles.id[one as usize], particles.id[other as usize]);
+            let Some(&model) = around.interactions.model(place) else { continue };
+            let mut group = ContactGroup::new(model, Partner::Particle, spare.pop());
+            for Near { rows: [one, other], gap } in classes.into_iter().flatten() {
                 // The first body of a contact is the one of the lower id: what the contact remembers
                 // does not change its sign when rows change their order.
-                let rows = if first < second { [one, other] } else { [other, one] };
+                let lower_first = id[one as usize] < id[other as usize];
+                let rows = if lower_first { [one, other] } else { [other, one] };
                 let candidate = Candidate { rows, sums: rows.map(|row| self.place_of_sum(row)), gap };
-                let record = memory.find(first.min(second), first.max(second), &group);
+                let [first, second] = rows.map(|row| around.order[row as usize]);
+                let record = memory.find(first, second, &group);
                 group.push(&candidate, record.as_deref());
             }
             self.keep(group);
@@ -118,7 +144,6 @@ impl Piece {
 
     /// Tells the contacts where the sums of the halo begin.
     pub(crate) fn place_halo(&mut self, start: usize) {
-        self.halo_sums = start;
         for group in &mut self.groups {
             let places = group.first_sum.iter_mut().chain(&mut group.second_sum).flatten();
             for place in places.filter(|place| **place >= HALO) {
@@ -127,18 +152,18 @@ impl Piece {
         }
     }
 
-    fn list_walls(&mut self, around: &Surroundings<'_>, memory: &MemoryStore) {
+    fn list_walls(&mut self, around: &Surroundings<'_>, memory: &MemoryStore, spare: &mut Vec<ContactGroup>) {
         let Surroundings { particles, interactions, walls, skin, .. } = *around;
         for (place, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.present) {
             for &material in around.materials {
                 let Some(&model) = interactions.get(material, wall.material) else { continue };
                 let touch = wall.offset() + model.reach();
-                let mut group = ContactGroup::new(model, Partner::Wall(place));
+                let mut group = ContactGroup::new(model, Partner::Wall(place), spare.pop());
                 for row in self.rows.clone().filter(|&row| particles.material[row] == material) {
                     let Quad { vector, scalar } = particles.place[row];
                     let gap = vector.dot(wall.normal) - scalar - touch;
                     if gap < skin {
-                        let record = memory.find(particles.id[row], wall_partner(place), &group);
+                        let record = memory.find(around.order[row], wall_partner(place), &group);
                         let rows = [row as u32; 2];
                         let candidate = Candidate { rows, sums: rows, gap };
                         group.push(&candidate, record.as_deref());

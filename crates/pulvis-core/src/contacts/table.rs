@@ -4,11 +4,11 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use pulvis_contact::ContactEnergies;
-use pulvis_math::Vector3;
+use pulvis_math::{InstructionSet, Vector3};
 
 use super::Interactions;
 use super::block::{ContactGroup, Partner};
-use super::kernel::{Advance, Moving, WallMotionNow, sweep};
+use super::kernel::{Advance, Ahead, Moving, WallMotionNow, sweep};
 use super::piece::{Incoming, Piece, cut};
 use super::rebuild::MemoryStore;
 use crate::domain::Images;
@@ -23,6 +23,11 @@ use crate::walls::Wall;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactTable {
     pieces: Vec<Piece>,
+    row_count: usize,
+    /// The halos of all pieces, one behind the other.
+    halos: Vec<u32>,
+    /// Where the halo of each piece begins, and the end.
+    halo_starts: Vec<usize>,
     pending: Vec<Countdown>,
 }
 
@@ -59,13 +64,15 @@ impl Countdown {
 #[derive(Clone, Copy)]
 pub(crate) struct Surroundings<'a> {
     pub(crate) particles: &'a Particles,
-    pub(crate) positions: &'a [Vector3],
+    /// The rows that the particles had when contacts were last listed.
+    pub(crate) order: &'a [u32],
     /// The materials of all particles, each once.
     pub(crate) materials: &'a [MaterialIndex],
     pub(crate) interactions: &'a Interactions,
     pub(crate) walls: &'a [Wall],
     pub(crate) images: Images,
     pub(crate) skin: f64,
+    pub(crate) instructions: InstructionSet,
 }
 
 impl ContactTable {
@@ -79,9 +86,9 @@ impl ContactTable {
         &self.pieces
     }
 
-    /// What the contacts remember.
-    pub(crate) fn memory(&self, particles: &Particles) -> MemoryStore {
-        MemoryStore::gather(self.groups(), &particles.id)
+    /// Lets `store` remember what the contacts remember.
+    pub(crate) fn remember(&self, store: &mut MemoryStore, rows: usize) {
+        store.gather(self.groups(), rows);
     }
 
     /// Lists all candidates within reach and skin; contacts keep their `memory`. Answers with the number
@@ -93,34 +100,40 @@ impl ContactTable {
         memory: &MemoryStore,
         team: &Team,
     ) -> usize {
-        self.pieces = cut(around.particles.len());
+        if self.pieces.is_empty() {
+            self.pieces = cut(around.particles.len());
+        }
         team.for_each(&mut self.pieces, |_, piece| piece.list(around, grid, memory));
-        self.link(around.particles.len())
+        self.row_count = around.particles.len();
+        self.link(self.row_count)
     }
 
     /// Gives the halo of every piece its sums, which stand behind those of all `rows`, and tells every
     /// piece whose halos it takes part in. Answers with the end of all sums.
     fn link(&mut self, rows: usize) -> usize {
-        let mut end = rows;
+        self.halos.clear();
+        self.halo_starts.clear();
         for number in 0..self.pieces.len() {
-            let piece = &mut self.pieces[number];
-            piece.place_halo(end);
-            end += piece.halo.len();
-            let halo = piece.halo.clone();
+            let start = self.halos.len();
+            self.halo_starts.push(start);
+            self.pieces[number].place_halo(rows + start);
+            let halo = std::mem::take(&mut self.pieces[number].halo);
             let mut slot = 0;
             while slot < halo.len() {
                 let later = self.pieces.partition_point(|piece| piece.rows.end <= halo[slot] as usize);
                 let rows_end = self.pieces[later].rows.end;
                 let after = slot + halo[slot..].partition_point(|&row| (row as usize) < rows_end);
-                let slots = slot as u32..after as u32;
-                self.pieces[later].incoming.push(Incoming { source: number as u32, slots });
+                self.pieces[later].incoming.push(Incoming { slots: start + slot..start + after });
                 self.pieces[number].dependents.push(later as u32);
                 slot = after;
             }
+            self.halos.extend_from_slice(&halo);
+            self.pieces[number].halo = halo;
         }
+        self.halo_starts.push(self.halos.len());
         let counts = self.pieces.iter().map(|piece| 1 + piece.incoming.len() as u32);
         self.pending = counts.map(Countdown::from).collect();
-        end
+        rows + self.halos.len()
     }
 
     /// Adds the loads of all contacts to `loads`, which are zero at the start. When those on the rows of
@@ -137,14 +150,20 @@ impl ContactTable {
     ) {
         let count = self.pieces.len();
         let pieces = Shared::new(&mut self.pieces);
-        let pending = &self.pending;
+        let (pending, halos, halo_starts) = (&self.pending, &self.halos, &self.halo_starts);
+        let row_count = self.row_count;
         team.for_each_number(count, |number| {
             // SAFETY: nobody looks at a piece before it has counted down below.
             let Piece { rows, groups, phases, .. } = unsafe { pieces.get_mut(number) };
             let mut clock = Stopwatch::start(advance.timed);
             for (place, group) in groups.iter_mut().enumerate() {
-                // The largest group comes first; the rows behind this piece are mostly the next ones.
-                let ahead = if place == 0 { rows.end..rows.end + rows.len() } else { 0..0 };
+                let ahead = if place == 0 {
+                    // The largest group comes first, and the next piece is mostly the one behind this.
+                    let next = halo_starts[number + 1]..halo_starts[(number + 2).min(count)];
+                    Ahead { rows: rows.end..rows.end + rows.len(), halo: &halos[next] }
+                } else {
+                    Ahead::default()
+                };
                 // SAFETY: rows and places were listed for these columns and loads. `finish`, which writes
                 // rows, is not called for rows of this piece or its halo before it has counted down.
                 unsafe { sweep(group, loads, moving, walls, advance, ahead) };
@@ -160,7 +179,7 @@ impl ContactTable {
                 if pending[ready].is_over() {
                     // SAFETY: the sweep over the piece and over all with a part in it is over; this
                     // thread alone has seen the end of the countdown.
-                    unsafe { complete(pieces, loads, ready) };
+                    unsafe { complete(pieces.get(ready), halos, loads, row_count) };
                     let rows = unsafe { pieces.get(ready) }.rows.clone();
                     finish(ready, rows);
                 }
@@ -193,7 +212,7 @@ impl ContactTable {
 
     /// Memory of the whole table [byte].
     pub(crate) fn memory_size(&self) -> usize {
-        let halos: usize = self.pieces.iter().map(|piece| size_of_val(&piece.halo[..])).sum();
+        let halos = 2 * size_of_val(&self.halos[..]);
         self.groups().map(ContactGroup::memory_size).sum::<usize>() + halos
     }
 }
@@ -204,17 +223,14 @@ impl ContactTable {
 /// # Safety
 /// All contacts of the piece and of those with a part in it have been computed, and no other thread
 /// completes the same piece.
-unsafe fn complete(pieces: Shared<'_, Piece>, loads: Shared<'_, Load>, number: usize) {
-    // SAFETY: the caller's; a part of a halo belongs to the rows of one piece only.
-    unsafe {
-        for Incoming { source, slots } in &pieces.get(number).incoming {
-            let source = pieces.get(*source as usize);
-            for slot in slots.start as usize..slots.end as usize {
-                let part = std::mem::take(loads.get_mut(source.halo_sums + slot));
-                let sum = loads.get_mut(source.halo[slot] as usize);
-                sum.force.vector += part.force.vector;
-                sum.torque.vector += part.torque.vector;
-            }
+unsafe fn complete(piece: &Piece, halos: &[u32], loads: Shared<'_, Load>, rows: usize) {
+    for Incoming { slots } in &piece.incoming {
+        for slot in slots.clone() {
+            // SAFETY: the caller's; a part of a halo belongs to the rows of one piece only.
+            let (part, sum) = unsafe { (loads.get_mut(rows + slot), loads.get_mut(halos[slot] as usize)) };
+            let part = std::mem::take(part);
+            sum.force.vector += part.force.vector;
+            sum.torque.vector += part.torque.vector;
         }
     }
 }

@@ -3,5 +3,5 @@
 mod grid;
 mod skin;
 
-pub(crate) use grid::CellGrid;
+pub(crate) use grid::{CellGrid, Stretch};
 pub(crate) use skin::{Outdated, Skin};

@@ -52,6 +52,8 @@ pub struct Simulation {
     step: u64,
     time: f64,
     contacts: ContactTable,
+    /// What contacts remember while they are listed anew.
+    memory: MemoryStore,
     team: Team,
     instructions: InstructionSet,
     accounting: bool,
@@ -103,6 +105,7 @@ impl Simulation {
             step: 0,
             time: 0.0,
             contacts: ContactTable::default(),
+            memory: MemoryStore::default(),
             team: Team::default(),
             instructions: InstructionSet::widest(),
             accounting: true,
@@ -127,7 +130,7 @@ impl Simulation {
         for (wall, state) in simulation.walls.iter().zip(&mut simulation.wall_states) {
             state.start(&wall.motion);
         }
-        simulation.rebuild(&MemoryStore::default());
+        simulation.rebuild();
         simulation.evaluate_at_rest();
         simulation.running.forget_losses();
         simulation.running.initial = simulation.ledger().held();
@@ -340,8 +343,8 @@ impl Simulation {
     fn renew_candidates(&mut self) {
         let mut clock = Stopwatch::start(self.phases.is_some());
         self.phases = self.phases();
-        let memory = self.contacts.memory(&self.particles);
-        self.rebuild(&memory);
+        self.contacts.remember(&mut self.memory, self.particles.len());
+        self.rebuild();
         self.rebuilds += 1;
         if let Some(phases) = &mut self.phases {
             clock.lap(&mut phases.neighbours);
@@ -349,7 +352,7 @@ impl Simulation {
     }
 
     /// Puts the particles into cell order and lists all candidates within reach and skin.
-    fn rebuild(&mut self, memory: &MemoryStore) {
+    fn rebuild(&mut self) {
         let gravity = self.background.gravity;
         for (place, mass) in self.particles.place.iter_mut().zip(&self.particles.mass) {
             let wrapped = self.domain.wrapped(place.vector);
@@ -358,20 +361,19 @@ impl Simulation {
             place.vector = wrapped;
         }
         let margin = self.interactions.reach() + self.skin.thickness;
-        let positions: Vec<Vector3> = self.particles.positions().iter().collect();
-        let (grid, order) = CellGrid::sort(&self.domain, &positions, &self.particles.radius, margin);
+        let (grid, order) = CellGrid::sort(&self.domain, &self.particles.place, margin);
         self.particles.reorder(&order);
-        let positions: Vec<Vector3> = self.particles.positions().iter().collect();
         let around = Surroundings {
             particles: &self.particles,
-            positions: &positions,
+            order: &order,
             materials: &self.materials,
             interactions: &self.interactions,
             walls: &self.walls,
             images: self.domain.images(),
             skin: self.skin.thickness,
+            instructions: self.instructions,
         };
-        let places = self.contacts.rebuild(&around, &grid, memory, &self.team);
+        let places = self.contacts.rebuild(&around, &grid, &self.memory, &self.team);
         self.particles.loads.clear();
         self.particles.loads.resize(places, Load::default());
         self.outcomes.clear();

@@ -114,11 +114,6 @@ impl Mask2 {
         let ones = Self::splat(true);
         halves!(Self, _mm256_xor_pd(self, ones))
     }
-    /// One bit a lane.
-    #[inline(always)]
-    fn bits(self) -> i32 {
-        unsafe { _mm256_movemask_pd(self.0) | _mm256_movemask_pd(self.1) << 4 }
-    }
 }
 
 impl fmt::Debug for Mask2 {
@@ -147,6 +142,10 @@ impl Mask for Mask2 {
     #[inline(always)]
     fn lane(self, lane: usize) -> bool {
         self.bits() & (1 << lane) != 0
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        unsafe { (_mm256_movemask_pd(self.0) | _mm256_movemask_pd(self.1) << 4) as u32 }
     }
 }
 

@@ -87,6 +87,10 @@ impl Mask for Bits {
     fn lane(self, lane: usize) -> bool {
         self.0 & (1 << lane) != 0
     }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        u32::from(self.0)
+    }
 }
 
 impl Real for Zmm {

@@ -208,6 +208,7 @@ mod tests {
                 flag(!x.lt(y) & y.ge(zero) | x.gt(one)),
                 R::splat(x.sum_lanes()),
                 R::splat(f64::from(u8::from(x.lt(y).any())) + 2.0 * f64::from(u8::from(x.lt(y).all()))),
+                R::splat(f64::from(x.lt(y).bits())),
                 R::from_lanes(|lane| x.lane(7 - lane)),
                 R::from_lanes(|lane| if x.lt(y).lane(lane) { 1.0 } else { 0.0 }),
                 columns[0],

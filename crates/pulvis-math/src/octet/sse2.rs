@@ -127,16 +127,6 @@ impl Mask4 {
         let ones = Self::splat(true);
         quarters!(Self, _mm_xor_pd(self, ones))
     }
-    /// One bit a lane.
-    #[inline(always)]
-    fn bits(self) -> i32 {
-        unsafe {
-            _mm_movemask_pd(self.0)
-                | _mm_movemask_pd(self.1) << 2
-                | _mm_movemask_pd(self.2) << 4
-                | _mm_movemask_pd(self.3) << 6
-        }
-    }
 }
 
 impl fmt::Debug for Mask4 {
@@ -165,6 +155,15 @@ impl Mask for Mask4 {
     #[inline(always)]
     fn lane(self, lane: usize) -> bool {
         self.bits() & (1 << lane) != 0
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        unsafe {
+            (_mm_movemask_pd(self.0)
+                | _mm_movemask_pd(self.1) << 2
+                | _mm_movemask_pd(self.2) << 4
+                | _mm_movemask_pd(self.3) << 6) as u32
+        }
     }
 }
 

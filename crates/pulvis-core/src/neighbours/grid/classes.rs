@@ -1,6 +1,6 @@
 //! Which particles share a level of the grid.
 
-use pulvis_math::Vector3;
+use pulvis_math::{Quad, Vector3};
 
 /// Classes of sizes at the most: the finest takes in whatever is finer still.
 const MOST: usize = 24;
@@ -30,12 +30,12 @@ impl Classes {
     /// Sorts particles into classes, in each of which sizes differ by less than a factor of two. What
     /// counts as size is the radius and half the `margin` [m]: that is what cells must be wide enough
     /// for.
-    pub(super) fn of(positions: &[Vector3], radii: &[f64], margin: f64) -> Self {
+    pub(super) fn of(places: &[Quad], margin: f64) -> Self {
         let half_margin = 0.5 * margin;
-        let largest = radii.iter().copied().fold(0.0, f64::max) + half_margin;
+        let largest = places.iter().map(|place| place.scalar).fold(0.0, f64::max) + half_margin;
         let mut halved = [Class::empty(); MOST];
-        let mut of_row = Vec::with_capacity(radii.len());
-        for (&position, &radius) in positions.iter().zip(radii) {
+        let mut of_row = Vec::with_capacity(places.len());
+        for &Quad { vector: position, scalar: radius } in places {
             let halvings = whole_halvings(largest / (radius + half_margin));
             of_row.push(halvings as u8);
             halved[halvings].take_in(position, radius);
@@ -56,10 +56,10 @@ impl Classes {
     pub(super) fn members<'a>(
         &'a self,
         class: usize,
-        positions: &'a [Vector3],
+        places: &'a [Quad],
     ) -> impl Iterator<Item = Vector3> + 'a {
-        let of_class = move |&(_, &other): &(&Vector3, &u8)| usize::from(other) == class;
-        positions.iter().zip(&self.of_row).filter(of_class).map(|(&position, _)| position)
+        let of_class = move |&(_, &other): &(&Quad, &u8)| usize::from(other) == class;
+        places.iter().zip(&self.of_row).filter(of_class).map(|(place, _)| place.vector)
     }
 }
 

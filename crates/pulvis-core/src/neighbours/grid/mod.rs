@@ -7,10 +7,11 @@ mod search;
 #[cfg(test)]
 mod tests;
 
-use pulvis_math::Vector3;
+use pulvis_math::Quad;
 
 use self::classes::Classes;
 use self::level::Level;
+pub(crate) use self::search::Stretch;
 use crate::domain::Domain;
 
 /// Particles sorted into levels by size, finest first, and in each level into cells that are wide
@@ -30,27 +31,22 @@ pub(crate) struct CellGrid {
 
 impl CellGrid {
     /// Sorts rows by level, then by cell, then by row. Pairs will be found up to `margin` [m] beyond
-    /// touching: the reach of attraction and the skin. Positions [m] are wrapped into the domain, radii
+    /// touching: the reach of attraction and the skin. `places` are centres [m], wrapped into the domain, and radii
     /// in m. Answers also with the order: row k is to become what was row `order[k]`.
-    pub(crate) fn sort(
-        domain: &Domain,
-        positions: &[Vector3],
-        radii: &[f64],
-        margin: f64,
-    ) -> (Self, Vec<u32>) {
-        let classes = Classes::of(positions, radii, margin);
+    pub(crate) fn sort(domain: &Domain, places: &[Quad], margin: f64) -> (Self, Vec<u32>) {
+        let classes = Classes::of(places, margin);
         let mut levels: Vec<Level> = Vec::with_capacity(classes.list.len());
         for place in 0..classes.list.len() {
             let (first_cell, first_row) =
                 levels.last().map_or((0, 0), |finer| (finer.end_of_cells(), finer.rows.end));
-            let members = || classes.members(place, positions);
+            let members = || classes.members(place, places);
             levels.push(Level::new(domain, &classes.list[place], members, margin, (first_cell, first_row)));
         }
-        let number = |(&position, &class): (&Vector3, &u8)| {
+        let number = |(place, &class): (&Quad, &u8)| {
             let level = &levels[usize::from(class)];
-            level.number(level.places_at(position))
+            level.number(level.places_at(place.vector))
         };
-        let cells: Vec<u32> = positions.iter().zip(&classes.of_row).map(number).collect();
+        let cells: Vec<u32> = places.iter().zip(&classes.of_row).map(number).collect();
         let count = levels.last().map_or(0, Level::end_of_cells);
         let (starts, order) = counting_sort(&cells, count);
         (Self { levels, starts, margin }, order)

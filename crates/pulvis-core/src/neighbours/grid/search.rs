@@ -2,10 +2,17 @@
 
 use std::ops::Range;
 
-use pulvis_math::Vector3;
+use pulvis_math::{Quad, Vector3};
 
 use super::CellGrid;
 use super::level::{Level, Touched};
+
+/// Rows, each of which may be near the later ones among other rows; as first row and end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch {
+    pub(crate) ones: (u32, u32),
+    pub(crate) others: (u32, u32),
+}
 
 /// Candidates in the own and in the adjacent cells, as stretches of rows.
 struct Adjacent {
@@ -23,16 +30,16 @@ struct Coarser {
 }
 
 impl CellGrid {
-    /// Calls `see(one, other)` for every pair with `one` in `rows` and `one` < `other` whose centres
-    /// may be closer than the sum of their radii and the margin, each once over all rows; distances are
-    /// not checked. Positions [m] and radii [m] are those that were sorted, in the new order. The
-    /// pairs of a row and their order do not depend on the range that it is in.
-    pub(crate) fn for_each_pair_of(
+    /// Calls `see` with stretches of rows in which every partner of each row in `rows` is found: later
+    /// rows whose centres may be closer than the sum of the radii and the margin. Each pair of a row and
+    /// a later one is in one stretch over all rows; distances are not checked. `places` are the centres
+    /// [m] and radii [m] that were sorted, in the new order. The partners of a row and their order do
+    /// not depend on the range that it is in.
+    pub(crate) fn for_each_stretch_of(
         &self,
         rows: Range<u32>,
-        positions: &[Vector3],
-        radii: &[f64],
-        mut see: impl FnMut(u32, u32),
+        places: &[Quad],
+        mut see: impl FnMut(Stretch),
     ) {
         for (place, level) in self.levels.iter().enumerate() {
             let coarser = &self.levels[place + 1..];
@@ -41,24 +48,25 @@ impl CellGrid {
             let mut row = rows.start.max(level.rows.start);
             let end = rows.end.min(level.rows.end);
             while row < end {
-                let places = level.places_at(positions[row as usize]);
-                let end_of_cell = self.list_adjacent(level, places, &mut own);
-                for one in row..end_of_cell.clamp(row + 1, end) {
-                    let (position, radius) = (positions[one as usize], radii[one as usize]);
-                    for (other, coarse) in others.iter_mut().zip(coarser) {
-                        self.list_touched(coarse, position, radius, other);
-                    }
-                    own.runs[0].0 = one + 1;
-                    let coarser_runs = others.iter().map(|other| &other.runs[..]);
-                    for runs in std::iter::once(&own.runs[..own.count]).chain(coarser_runs) {
-                        for &(start, end) in runs {
-                            for other in start..end {
-                                see(one, other);
+                let cell = level.places_at(places[row as usize].vector);
+                let end_of_cell = self.list_adjacent(level, cell, &mut own);
+                let ones = (row, end_of_cell.clamp(row + 1, end));
+                own.runs[0].0 = row;
+                for &others in &own.runs[..own.count] {
+                    see(Stretch { ones, others });
+                }
+                if !coarser.is_empty() {
+                    for one in ones.0..ones.1 {
+                        let Quad { vector, scalar } = places[one as usize];
+                        for (other, coarse) in others.iter_mut().zip(coarser) {
+                            self.list_touched(coarse, vector, scalar, other);
+                            for &others in &other.runs {
+                                see(Stretch { ones: (one, one + 1), others });
                             }
                         }
                     }
                 }
-                row = end_of_cell.max(row + 1);
+                row = ones.1;
             }
         }
     }

@@ -1,6 +1,7 @@
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
+use pulvis_math::Vector3;
 use rand::RngExt;
 
 use super::*;
@@ -11,44 +12,41 @@ struct Sorted {
     grid: CellGrid,
     order: Vec<u32>,
     domain: Domain,
-    positions: Vec<Vector3>,
-    radii: Vec<f64>,
+    places: Vec<Quad>,
     margin: f64,
 }
 
 impl Sorted {
     fn new(domain: Domain, spheres: &[(Vector3, f64)], margin: f64) -> Self {
-        let positions: Vec<_> = spheres.iter().map(|&(position, _)| domain.wrapped(position)).collect();
-        let radii: Vec<_> = spheres.iter().map(|&(_, radius)| radius).collect();
-        let (grid, order) = CellGrid::sort(&domain, &positions, &radii, margin);
-        Self {
-            grid,
-            domain,
-            positions: order.iter().map(|&row| positions[row as usize]).collect(),
-            radii: order.iter().map(|&row| radii[row as usize]).collect(),
-            order,
-            margin,
-        }
+        let quad = |&(position, radius): &(Vector3, f64)| Quad::new(domain.wrapped(position), radius);
+        let places: Vec<Quad> = spheres.iter().map(quad).collect();
+        let (grid, order) = CellGrid::sort(&domain, &places, margin);
+        let places = order.iter().map(|&row| places[row as usize]).collect();
+        Self { grid, domain, places, order, margin }
     }
 
     fn pairs_of(&self, rows: std::ops::Range<u32>) -> Vec<(u32, u32)> {
         let mut pairs = Vec::new();
-        self.grid.for_each_pair_of(rows, &self.positions, &self.radii, |one, other| pairs.push((one, other)));
+        self.grid.for_each_stretch_of(rows, &self.places, |Stretch { ones, others }| {
+            for one in ones.0..ones.1 {
+                pairs.extend((others.0.max(one + 1)..others.1).map(|other| (one, other)));
+            }
+        });
         pairs
     }
 
     fn pairs(&self) -> Vec<(u32, u32)> {
-        self.pairs_of(0..self.positions.len() as u32)
+        self.pairs_of(0..self.places.len() as u32)
     }
 
     fn is_near(&self, one: u32, other: u32) -> bool {
         let (i, j) = (one as usize, other as usize);
-        let apart = self.domain.images().nearest(self.positions[i] - self.positions[j]).norm();
-        apart < self.radii[i] + self.radii[j] + self.margin
+        let apart = self.domain.images().nearest(self.places[i].vector - self.places[j].vector).norm();
+        apart < self.places[i].scalar + self.places[j].scalar + self.margin
     }
 
     fn near_pairs(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        let all = (0..self.positions.len() as u32).flat_map(|other| (0..other).map(move |one| (one, other)));
+        let all = (0..self.places.len() as u32).flat_map(|other| (0..other).map(move |one| (one, other)));
         all.filter(|&(one, other)| self.is_near(one, other))
     }
 }
