@@ -2,7 +2,7 @@
 
 use std::ops::AddAssign;
 
-use pulvis_math::Real;
+use pulvis_math::{Lanes, Octet, Real};
 
 macro_rules! contact_energies {
     ($($(#[$doc:meta])* $account:ident),* $(,)?) => {
@@ -33,6 +33,15 @@ macro_rules! contact_energies {
             #[inline(always)]
             pub fn sum_lanes(&self) -> ContactEnergies<f64> {
                 ContactEnergies { $($account: self.$account.sum_lanes(),)* }
+            }
+
+            /// Lane by lane, in memory.
+            #[inline(always)]
+            pub fn to_lanes(&self) -> ContactEnergies<Lanes<8>>
+            where
+                R: Octet,
+            {
+                ContactEnergies { $($account: self.$account.to_lanes(),)* }
             }
 
             /// Every account where `mask` holds, zero elsewhere.

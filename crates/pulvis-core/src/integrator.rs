@@ -52,7 +52,7 @@ impl<'a> Columns<'a> {
 /// 1/I over 1/(m a²) of a solid sphere, I = 2/5 m a².
 const INVERSE_INERTIA: f64 = 2.5;
 
-/// First half kick and drift over a time step; loads are zero afterwards. Predicted velocities are those at the end of the step if
+/// First half kick by the `loads` on the rows, and drift over a time step. Predicted velocities are those at the end of the step if
 /// forces stay as they are: what dashpots see, at the same instant as the positions.
 ///
 /// Answers with the largest square of the distance of any particle from where it was listed [m²],
@@ -60,14 +60,29 @@ const INVERSE_INERTIA: f64 = 2.5;
 pub(crate) struct KickAndDrift<'a> {
     columns: Columns<'a>,
     rows: Range<usize>,
-    time_step: f64,
+    loads: &'a [Load],
+    step: Step,
+}
+
+/// What steps of all rows have in common.
+#[derive(Clone, Copy)]
+pub(crate) struct Step {
+    /// Duration [s].
+    pub(crate) time_step: f64,
+    /// Whether anybody looks at predicted spins.
+    pub(crate) predicts_spins: bool,
 }
 
 impl<'a> KickAndDrift<'a> {
     /// # Safety
     /// Nobody else uses these rows until the kernel has run.
-    pub(crate) unsafe fn new(columns: Columns<'a>, rows: Range<usize>, time_step: f64) -> Self {
-        Self { columns, rows, time_step }
+    pub(crate) unsafe fn new(
+        columns: Columns<'a>,
+        rows: Range<usize>,
+        loads: &'a [Load],
+        step: Step,
+    ) -> Self {
+        Self { columns, rows, loads, step }
     }
 }
 
@@ -76,37 +91,36 @@ impl Kernel for KickAndDrift<'_> {
 
     #[inline(always)]
     fn run<R: Octet>(self) -> f64 {
-        let Self { columns, rows, time_step } = self;
+        let Self { columns, rows, loads, step: Step { time_step, predicts_spins } } = self;
+        let loads = &loads[..rows.len()];
         let half = 0.5 * time_step;
         let listed = &columns.listed[rows.clone()];
         // SAFETY: as `new` demands.
-        let (place, velocity, spin, velocity_predicted, spin_predicted, loads) = unsafe {
+        let (place, velocity, spin, velocity_predicted, spin_predicted) = unsafe {
             (
                 columns.place.range_mut(rows.clone()),
                 columns.velocity.range_mut(rows.clone()),
                 columns.spin.range_mut(rows.clone()),
                 columns.velocity_predicted.range_mut(rows.clone()),
                 columns.spin_predicted.range_mut(rows.clone()),
-                columns.loads.range_mut(rows.clone()),
             )
         };
-        let (step, zero) = (R::Row::splat(time_step), R::Row::splat(0.0));
+        let step = R::Row::splat(time_step);
         let mut farthest = 0.0;
         for row in 0..rows.len() {
             let (inverse_mass, inverse_radius) = (velocity[row].scalar, spin[row].scalar);
             let inverse_inertia = INVERSE_INERTIA * inverse_mass * inverse_radius * inverse_radius;
             let kick = R::Row::load(&loads[row].force).times(R::Row::splat(half * inverse_mass));
             let turn = R::Row::load(&loads[row].torque).times(R::Row::splat(half * inverse_inertia));
-            // The next loads are summed from zero.
-            zero.store(&mut loads[row].force);
-            zero.store(&mut loads[row].torque);
             let (velocity_before, spin_before) = (R::Row::load(&velocity[row]), R::Row::load(&spin[row]));
             let velocity_mid = velocity_before.plus(kick);
             let spin_mid = spin_before.plus(turn);
             velocity_mid.with_scalar_of(velocity_before).store(&mut velocity[row]);
             spin_mid.with_scalar_of(spin_before).store(&mut spin[row]);
             velocity_mid.plus(kick).with_scalar_of(spin_before).store(&mut velocity_predicted[row]);
-            spin_mid.plus(turn).with_scalar_of(spin_before).store(&mut spin_predicted[row]);
+            if predicts_spins {
+                spin_mid.plus(turn).with_scalar_of(spin_before).store(&mut spin_predicted[row]);
+            }
             let before = R::Row::load(&place[row]);
             let after = before.plus(velocity_mid.times(step)).with_scalar_of(before);
             after.store(&mut place[row]);
@@ -123,11 +137,12 @@ impl Kernel for KickAndDrift<'_> {
     }
 }
 
-/// Adds the background to the loads of the contacts, and does the second half kick over `half` a time
+/// Adds the background to the `loads` of the contacts on the rows, and does the second half kick over `half` a time
 /// step [s]. Answers with the power that the drag takes [W].
 pub(crate) struct Kick<'a> {
     columns: Columns<'a>,
     rows: Range<usize>,
+    loads: &'a mut [Load],
     background: &'a Background,
     half: f64,
 }
@@ -138,10 +153,11 @@ impl<'a> Kick<'a> {
     pub(crate) unsafe fn new(
         columns: Columns<'a>,
         rows: Range<usize>,
+        loads: &'a mut [Load],
         background: &'a Background,
         half: f64,
     ) -> Self {
-        Self { columns, rows, background, half }
+        Self { columns, rows, loads, background, half }
     }
 }
 
@@ -150,17 +166,16 @@ impl Kernel for Kick<'_> {
 
     #[inline(always)]
     fn run<R: Octet>(self) -> f64 {
-        let Self { columns, rows, background, half } = self;
-        let mass = &columns.mass[rows.clone()];
+        let Self { columns, rows, loads, background, half } = self;
+        let (mass, loads) = (&columns.mass[rows.clone()], &mut loads[..rows.len()]);
         // SAFETY: as `new` demands.
-        let (place, velocity, spin, velocity_predicted, spin_predicted, loads) = unsafe {
+        let (place, velocity, spin, velocity_predicted, spin_predicted) = unsafe {
             (
                 columns.place.range_mut(rows.clone()),
                 columns.velocity.range_mut(rows.clone()),
                 columns.spin.range_mut(rows.clone()),
                 columns.velocity_predicted.range_mut(rows.clone()),
                 columns.spin_predicted.range_mut(rows.clone()),
-                columns.loads.range_mut(rows.clone()),
             )
         };
         let gravity = R::Row::load(&Quad::new(background.gravity, 0.0));

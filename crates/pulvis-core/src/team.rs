@@ -39,10 +39,11 @@ impl Team {
 
     /// Does `work` for every number below `count`, each once, in an order that depends on the threads.
     /// Every thread begins with numbers of its own, the same in every region, so that what it has in its
-    /// caches is of use again; then it helps the others.
-    pub(crate) fn for_each_number(&self, count: usize, work: impl Fn(usize) + Sync) {
+    /// caches is of use again; then it helps the others. `work` is told which member of the team does it,
+    /// counted from zero.
+    pub(crate) fn for_each_number(&self, count: usize, work: impl Fn(usize, usize) + Sync) {
         let Some(crew) = &self.crew else {
-            (0..count).for_each(work);
+            (0..count).for_each(|number| work(0, number));
             return;
         };
         let threads = self.threads();
@@ -60,7 +61,7 @@ impl Team {
                     if number >= end {
                         break;
                     }
-                    work(number);
+                    work(member, number);
                 }
             }
         });
@@ -71,7 +72,7 @@ impl Team {
         let count = items.len();
         let items = Shared::new(items);
         // SAFETY: every number is handed out once.
-        self.for_each_number(count, |number| work(number, unsafe { items.get_mut(number) }));
+        self.for_each_number(count, |_, number| work(number, unsafe { items.get_mut(number) }));
     }
 }
 
@@ -265,7 +266,7 @@ mod tests {
         let team = Team::of(3).unwrap();
         for bad in [0, 50, 99] {
             let outcome = catch_unwind(AssertUnwindSafe(|| {
-                team.for_each_number(100, |number| assert!(number != bad, "number {number}"));
+                team.for_each_number(100, |_, number| assert!(number != bad, "number {number}"));
             }));
             assert!(outcome.is_err());
         }

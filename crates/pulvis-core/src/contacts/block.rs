@@ -29,7 +29,7 @@ pub(crate) struct ContactGroup {
     pub(crate) first: Vec<[u32; WIDTH]>,
     /// Rows of the second bodies; empty for walls.
     pub(crate) second: Vec<[u32; WIDTH]>,
-    /// Where the loads on the first bodies are summed: their rows, or places in the halo of the piece.
+    /// Where the loads on the first bodies are summed: places among those of the piece.
     pub(crate) first_sum: Vec<[u32; WIDTH]>,
     /// The same for the second bodies; empty for walls.
     pub(crate) second_sum: Vec<[u32; WIDTH]>,

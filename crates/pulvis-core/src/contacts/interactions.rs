@@ -55,6 +55,11 @@ impl Interactions {
         self.models[group].as_ref()
     }
 
+    /// All models.
+    pub(crate) fn models(&self) -> impl Iterator<Item = &ContactModel> {
+        self.models.iter().flatten()
+    }
+
     /// The largest reach of all models [m].
     pub fn reach(&self) -> f64 {
         self.models.iter().flatten().map(ContactModel::reach).fold(0.0, f64::max)

@@ -1,5 +1,6 @@
 //! The contact loop: the same text for every law and instruction set.
 
+use std::mem::MaybeUninit;
 use std::ops::Range;
 
 use pulvis_contact::{
@@ -41,7 +42,8 @@ pub(crate) struct WallMotionNow {
 /// What a sweep over a group's contacts adds up to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ContactTotals {
-    pub(crate) energies: ContactEnergies,
+    /// Lane by lane.
+    pub(crate) energies: ContactEnergies<Lane>,
     /// Sum of the forces on the first bodies [N].
     pub(crate) force: Vector3,
 }
@@ -67,11 +69,11 @@ pub(crate) struct Advance {
 /// Computes a group's contacts, particle pairs or contacts with a wall, and adds their loads to `sums`.
 ///
 /// # Safety
-/// The group's rows lie within the columns of `moving`, and nobody writes them meanwhile; its places of
-/// sums lie within `sums`, and nobody else uses them meanwhile.
+/// The group's rows lie within the columns of `moving`, its places of sums within `sums`, and nobody
+/// writes those rows meanwhile.
 pub(crate) unsafe fn sweep(
     group: &mut ContactGroup,
-    sums: Shared<'_, Load>,
+    sums: &mut [Load],
     moving: Moving<'_>,
     walls: &[WallMotionNow],
     advance: &Advance,
@@ -89,7 +91,7 @@ pub(crate) unsafe fn sweep(
 /// What a loop works on.
 struct Loop<'a> {
     group: &'a mut ContactGroup,
-    sums: Shared<'a, Load>,
+    sums: &'a mut [Load],
     moving: Moving<'a>,
     advance: &'a Advance,
     ahead: Ahead<'a>,
@@ -107,7 +109,7 @@ pub(crate) struct Ahead<'a> {
 impl Loop<'_> {
     /// Has the next `count` of the rows ahead brought near.
     #[inline(always)]
-    fn look_ahead(moving: Moving<'_>, sums: Shared<'_, Load>, ahead: &mut Ahead<'_>, counts: [usize; 2]) {
+    fn look_ahead(moving: Moving<'_>, ahead: &mut Ahead<'_>, counts: [usize; 2]) {
         // Two quads in a cache line.
         let end = (ahead.rows.start + counts[0]).min(ahead.rows.end);
         for row in (ahead.rows.start..end).step_by(2) {
@@ -116,8 +118,6 @@ impl Loop<'_> {
             moving.velocity.prefetch(row);
             moving.spin_mid.prefetch(row);
             moving.spin.prefetch(row);
-            sums.prefetch(row);
-            sums.prefetch(row + 1);
         }
         ahead.rows.start = end;
         let (near, later) = ahead.halo.split_at(counts[1].min(ahead.halo.len()));
@@ -188,8 +188,10 @@ fn rows_of<R: Octet>(vector: Vector3<R>) -> [R::Row; WIDTH] {
 macro_rules! add_rows {
     ($sums:expr, $places:expr, $part:ident, $sum:ident, $rows:expr) => {
         for lane in 0..WIDTH {
-            // SAFETY: places lie within the sums and are this loop's, as the caller of `sweep` vouches.
-            let slot = unsafe { &mut $sums.get_mut($places[lane] as usize).$part };
+            let place = $places[lane] as usize;
+            debug_assert!(place < $sums.len());
+            // SAFETY: places lie within the sums, as the caller of `sweep` vouches.
+            let slot = unsafe { &mut $sums.get_unchecked_mut(place).$part };
             R::Row::load(slot).$sum($rows[lane]).store(slot);
         }
     };
@@ -200,42 +202,20 @@ macro_rules! add_rows {
 /// let it work on several blocks at a time, and need fewer registers.
 const BATCH: usize = 4;
 
-/// A block between the loops.
+/// A block that has been gathered.
 #[derive(Clone, Copy)]
-struct Pending<R> {
+struct Gathered<R> {
     block: usize,
     pair: Pair<R>,
     motion: PairMotion<R>,
+}
+
+/// A block that has been computed.
+#[derive(Clone, Copy)]
+struct Answered<R> {
     force: Vector3<R>,
     torque_i: Vector3<R>,
     torque_j: Vector3<R>,
-}
-
-impl<R: Octet> Default for Pending<R> {
-    #[inline(always)]
-    fn default() -> Self {
-        let (zero, vector) = (R::zero(), Vector3::zero());
-        Self {
-            block: 0,
-            pair: Pair::wall_from_inverses(zero, zero),
-            motion: PairMotion {
-                normal: vector,
-                overlap: zero,
-                inverse_distance: zero,
-                radius_i: zero,
-                radius_j: zero,
-                velocity: vector,
-                velocity_mid: vector,
-                spin_i: vector,
-                spin_j: vector,
-                spin_i_mid: vector,
-                spin_j_mid: vector,
-            },
-            force: vector,
-            torque_i: vector,
-            torque_j: vector,
-        }
-    }
 }
 
 struct PairLoop<'a, N, const RESISTANCE: u8, const LEDGER: bool> {
@@ -255,13 +235,14 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
         let turning_dashpots = composition.has_resistance_dashpot();
         let reach = R::splat(-composition.noncontact.reach());
         let mut energies = ContactEnergies::<R>::default();
-        let mut batch = [Pending::<R>::default(); BATCH];
+        let mut batch = [const { MaybeUninit::<Gathered<R>>::uninit() }; BATCH];
+        let mut answers = [const { MaybeUninit::<Answered<R>>::uninit() }; BATCH];
         let blocks = group.first.len();
         let mut next = 0;
         let a_batch = |rows: usize| (rows * BATCH).div_ceil(blocks).next_multiple_of(2);
         let counts = [a_batch(ahead.rows.len()), a_batch(ahead.halo.len())];
         while next < blocks {
-            Loop::look_ahead(moving, sums, &mut ahead, counts);
+            Loop::look_ahead(moving, &mut ahead, counts);
             let mut count = 0;
             while next < blocks && count < BATCH {
                 let block = next;
@@ -289,67 +270,77 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
                 let (mid_j, inverse_mass_j) = unsafe { gather::<R>(moving.velocity_mid, second) };
                 let (velocity_i, inverse_radius_i) = unsafe { gather::<R>(moving.velocity, first) };
                 let (velocity_j, inverse_radius_j) = unsafe { gather::<R>(moving.velocity, second) };
-                let pending = &mut batch[count];
-                count += 1;
-                pending.block = block;
-                pending.pair = Pair::spheres_from_inverses(
-                    inverse_mass_i,
-                    inverse_mass_j,
-                    inverse_radius_i,
-                    inverse_radius_j,
-                );
-                let motion = &mut pending.motion;
-                motion.normal = separation * inverse_distance;
-                motion.overlap = overlap;
-                motion.inverse_distance = inverse_distance;
-                motion.radius_i = radius_i;
-                motion.radius_j = radius_j;
-                motion.velocity = velocity_i - velocity_j;
-                motion.velocity_mid = mid_i - mid_j;
+                let (mut spin_i_mid, mut spin_j_mid) = (Vector3::zero(), Vector3::zero());
+                let (mut spin_i, mut spin_j) = (Vector3::zero(), Vector3::zero());
                 if RESISTANCE != resistance::NONE {
-                    motion.spin_i_mid = unsafe { gather::<R>(moving.spin_mid, first) }.0;
-                    motion.spin_j_mid = unsafe { gather::<R>(moving.spin_mid, second) }.0;
+                    spin_i_mid = unsafe { gather::<R>(moving.spin_mid, first) }.0;
+                    spin_j_mid = unsafe { gather::<R>(moving.spin_mid, second) }.0;
                     if turning_dashpots {
-                        motion.spin_i = unsafe { gather::<R>(moving.spin, first) }.0;
-                        motion.spin_j = unsafe { gather::<R>(moving.spin, second) }.0;
+                        spin_i = unsafe { gather::<R>(moving.spin, first) }.0;
+                        spin_j = unsafe { gather::<R>(moving.spin, second) }.0;
                     }
                 }
+                batch[count].write(Gathered {
+                    block,
+                    pair: Pair::spheres_from_inverses(
+                        inverse_mass_i,
+                        inverse_mass_j,
+                        inverse_radius_i,
+                        inverse_radius_j,
+                    ),
+                    motion: PairMotion {
+                        normal: separation * inverse_distance,
+                        overlap,
+                        inverse_distance,
+                        radius_i,
+                        radius_j,
+                        velocity: velocity_i - velocity_j,
+                        velocity_mid: mid_i - mid_j,
+                        spin_i,
+                        spin_j,
+                        spin_i_mid,
+                        spin_j_mid,
+                    },
+                });
+                count += 1;
             }
-            for pending in &mut batch[..count] {
-                let block = pending.block;
+            for place in 0..count {
+                // SAFETY: the first `count` have been gathered.
+                let gathered = unsafe { batch[place].assume_init_ref() };
+                let block = gathered.block;
                 let memory = &mut group.memory[block * columns..(block + 1) * columns];
                 let answer = respond::<R, N, RESISTANCE>(
                     &law,
                     &composition,
                     &layout,
-                    &pending.pair,
-                    &pending.motion,
+                    &gathered.pair,
+                    &gathered.motion,
                     advance.time_step,
                     memory,
                 );
-                pending.force = answer.force;
-                if RESISTANCE != resistance::NONE {
-                    pending.torque_i = answer.torque_i;
-                    pending.torque_j = answer.torque_j;
-                }
+                let ContactResponse { force, torque_i, torque_j, energies: now, .. } = answer;
+                answers[place].write(Answered { force, torque_i, torque_j });
                 if LEDGER {
-                    energies += answer.energies;
+                    energies += now;
                 }
             }
-            for pending in &batch[..count] {
-                let (first, second) = (&group.first_sum[pending.block], &group.second_sum[pending.block]);
-                let force = rows_of::<R>(pending.force);
+            for place in 0..count {
+                // SAFETY: the first `count` have been gathered and computed.
+                let (gathered, answer) =
+                    unsafe { (batch[place].assume_init_ref(), answers[place].assume_init_ref()) };
+                let (first, second) = (&group.first_sum[gathered.block], &group.second_sum[gathered.block]);
+                let force = rows_of::<R>(answer.force);
                 add_rows!(sums, first, force, plus, force);
                 add_rows!(sums, second, force, minus, force);
                 if RESISTANCE != resistance::NONE {
-                    let torque = rows_of::<R>(pending.torque_i);
+                    let torque = rows_of::<R>(answer.torque_i);
                     add_rows!(sums, first, torque, plus, torque);
-                    let torque = rows_of::<R>(pending.torque_j);
+                    let torque = rows_of::<R>(answer.torque_j);
                     add_rows!(sums, second, torque, plus, torque);
                 }
             }
         }
-        group.totals = ContactTotals { energies: energies.sum_lanes(), force: Vector3::zero() };
+        group.totals = ContactTotals { energies: energies.to_lanes(), force: Vector3::zero() };
     }
 }
 
@@ -379,6 +370,7 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
         let (composition, layout, advance) = (group.model.composition, group.layout, *advance);
         let columns = layout.columns();
         let reach = R::splat(-composition.noncontact.reach());
+        let turning_dashpots = composition.has_resistance_dashpot();
         let normal = Vector3::<R>::splat(wall.normal);
         let wall_now = Vector3::<R>::splat(wall.velocity);
         let wall_mid = Vector3::<R>::splat(wall.velocity_mid);
@@ -401,6 +393,11 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
             group.live[block] = acts;
             let (mid, inverse_mass) = unsafe { gather::<R>(moving.velocity_mid, rows) };
             let (velocity, inverse_radius) = unsafe { gather::<R>(moving.velocity, rows) };
+            let spin_mid = unsafe { gather::<R>(moving.spin_mid, rows) }.0;
+            let mut spin = Vector3::zero();
+            if turning_dashpots {
+                spin = unsafe { gather::<R>(moving.spin, rows) }.0;
+            }
             let motion = PairMotion {
                 normal,
                 overlap,
@@ -409,9 +406,9 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
                 radius_j: R::zero(),
                 velocity: velocity - wall_now,
                 velocity_mid: mid - wall_mid,
-                spin_i: unsafe { gather::<R>(moving.spin, rows) }.0,
+                spin_i: spin,
                 spin_j: Vector3::zero(),
-                spin_i_mid: unsafe { gather::<R>(moving.spin_mid, rows) }.0,
+                spin_i_mid: spin_mid,
                 spin_j_mid: Vector3::zero(),
             };
             let pair = Pair::wall_from_inverses(inverse_mass, inverse_radius);
@@ -433,7 +430,7 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
             energies += answer.energies;
         }
         let force = Vector3::new(total.x.sum_lanes(), total.y.sum_lanes(), total.z.sum_lanes());
-        group.totals = ContactTotals { energies: energies.sum_lanes(), force };
+        group.totals = ContactTotals { energies: energies.to_lanes(), force };
     }
 }
 

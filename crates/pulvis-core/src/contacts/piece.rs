@@ -11,13 +11,11 @@ use super::table::Surroundings;
 use crate::neighbours::CellGrid;
 use crate::phases::Phases;
 
-/// Rows of a piece at the most, and at the least where there are enough for several pieces.
-const ROWS: Range<usize> = 64..1024;
+/// Rows of a piece at the least, so that its blocks are full, and at the most, so that it fits into a
+/// second-level cache.
+const ROWS: Range<usize> = 128..1024;
 /// Pieces that small systems are cut into, so that several threads find work.
-const PIECES: usize = 16;
-
-/// Beyond any row.
-const HALO: u32 = 1 << 31;
+const PIECES: usize = 8;
 
 /// Candidates are sorted into blocks by their gap over the skin, up to these bounds: what touches now
 /// fills whole blocks, and blocks of what is far apart are passed over until something has moved.
@@ -34,9 +32,9 @@ struct Near {
 /// Consecutive rows, and every contact whose lower row is one of them.
 ///
 /// Pieces are what threads take their work by. Each sums the loads of its contacts in places of its own:
-/// those of its rows, and one for each row of later pieces that it has contacts with (its halo). A row's
-/// load is the sum of its own place and of the halos of earlier pieces, in their order: no two threads
-/// write to the same place, and the order of every sum is fixed.
+/// one for each of its rows, then one for each row of later pieces that it has contacts with (its halo).
+/// A row's load is the sum of its own place and of the halos of earlier pieces, in their order: no two
+/// threads write to the same place, and the order of every sum is fixed.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Piece {
     pub(crate) rows: Range<usize>,
@@ -133,23 +131,12 @@ impl Piece {
         }
     }
 
-    /// Where the load on a row is summed; places in the halo are counted from [`HALO`] on until it is
-    /// known where they begin.
+    /// The place among the piece's sums for the load on a row.
     fn place_of_sum(&self, row: u32) -> u32 {
         if (row as usize) < self.rows.end {
-            return row;
+            return row - self.rows.start as u32;
         }
-        HALO + self.halo.partition_point(|&other| other < row) as u32
-    }
-
-    /// Tells the contacts where the sums of the halo begin.
-    pub(crate) fn place_halo(&mut self, start: usize) {
-        for group in &mut self.groups {
-            let places = group.first_sum.iter_mut().chain(&mut group.second_sum).flatten();
-            for place in places.filter(|place| **place >= HALO) {
-                *place = *place - HALO + start as u32;
-            }
-        }
+        (self.rows.len() + self.halo.partition_point(|&other| other < row)) as u32
     }
 
     fn list_walls(&mut self, around: &Surroundings<'_>, memory: &MemoryStore, spare: &mut Vec<ContactGroup>) {
@@ -164,8 +151,8 @@ impl Piece {
                     let gap = vector.dot(wall.normal) - scalar - touch;
                     if gap < skin {
                         let record = memory.find(around.order[row], wall_partner(place), &group);
-                        let rows = [row as u32; 2];
-                        let candidate = Candidate { rows, sums: rows, gap };
+                        let sum = (row - self.rows.start) as u32;
+                        let candidate = Candidate { rows: [row as u32; 2], sums: [sum; 2], gap };
                         group.push(&candidate, record.as_deref());
                     }
                 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use pulvis_contact::ContactEnergies;
-use pulvis_math::{InstructionSet, Vector3};
+use pulvis_math::{InstructionSet, Lanes, Vector3};
 
 use super::Interactions;
 use super::block::{ContactGroup, Partner};
@@ -29,6 +29,8 @@ pub(crate) struct ContactTable {
     /// Where the halo of each piece begins, and the end.
     halo_starts: Vec<usize>,
     pending: Vec<Countdown>,
+    /// Scratch: the sums of the piece that each member of the team works on.
+    sums: Vec<Vec<Load>>,
 }
 
 /// Pieces whose contacts are still to be computed before the loads on a piece are complete.
@@ -54,9 +56,18 @@ impl Countdown {
         // What others wrote before they counted down is seen by the last one.
         let over = self.left.fetch_sub(1, Ordering::AcqRel) == 1;
         if over {
-            self.left.store(self.start, Ordering::Relaxed);
+            self.begin_anew();
         }
         over
+    }
+
+    /// Whether only the piece itself has still to count down; then nobody else will.
+    fn has_one_left(&self) -> bool {
+        self.left.load(Ordering::Acquire) == 1
+    }
+
+    fn begin_anew(&self) {
+        self.left.store(self.start, Ordering::Relaxed);
     }
 }
 
@@ -116,7 +127,6 @@ impl ContactTable {
         for number in 0..self.pieces.len() {
             let start = self.halos.len();
             self.halo_starts.push(start);
-            self.pieces[number].place_halo(rows + start);
             let halo = std::mem::take(&mut self.pieces[number].halo);
             let mut slot = 0;
             while slot < halo.len() {
@@ -136,9 +146,10 @@ impl ContactTable {
         rows + self.halos.len()
     }
 
-    /// Adds the loads of all contacts to `loads`, which are zero at the start. When those on the rows of
-    /// a piece are complete, and nobody uses these rows any more, `finish` is called with the number of
-    /// the piece and its rows.
+    /// Computes the loads of all contacts. When those on the rows of a piece are complete, and nobody
+    /// uses these rows any more, `finish` is called with the number of the piece, its rows and the loads.
+    /// `loads` are room for what is not complete at once: for all rows, and for all halos behind them.
+    /// With `keep` the loads on all rows, as `finish` leaves them, are there at the end.
     pub(crate) fn sweep(
         &mut self,
         loads: Shared<'_, Load>,
@@ -146,54 +157,83 @@ impl ContactTable {
         walls: &[WallMotionNow],
         advance: &Advance,
         team: &Team,
-        finish: impl Fn(usize, Range<usize>) + Sync,
+        keep: bool,
+        finish: impl Fn(usize, Range<usize>, &mut [Load]) + Sync,
     ) {
         let count = self.pieces.len();
-        let pieces = Shared::new(&mut self.pieces);
-        let (pending, halos, halo_starts) = (&self.pending, &self.halos, &self.halo_starts);
-        let row_count = self.row_count;
-        team.for_each_number(count, |number| {
+        self.sums.resize_with(team.threads(), Vec::new);
+        let (pieces, scratch) = (Shared::new(&mut self.pieces), Shared::new(&mut self.sums));
+        let (pending, row_count) = (&self.pending, self.row_count);
+        let halos = Halos { rows: &self.halos, starts: &self.halo_starts };
+        let finish_if_over = |number: usize, pieces: Shared<'_, Piece>, loads: Shared<'_, Load>| {
+            if pending[number].is_over() {
+                // SAFETY: all pieces with a part in this one have counted down, and this thread alone has
+                // seen the end of the countdown.
+                unsafe {
+                    let piece = pieces.get(number);
+                    let own = loads.range_mut(piece.rows.clone());
+                    complete(piece, own, halos.rows, loads, row_count);
+                    finish(number, piece.rows.clone(), own);
+                }
+            }
+        };
+        team.for_each_number(count, |member, number| {
+            // SAFETY: every member has sums of its own.
+            let sums = unsafe { scratch.get_mut(member) };
             // SAFETY: nobody looks at a piece before it has counted down below.
             let Piece { rows, groups, phases, .. } = unsafe { pieces.get_mut(number) };
+            sums.clear();
+            sums.resize(rows.len() + halos.of(number).len(), Load::default());
             let mut clock = Stopwatch::start(advance.timed);
             for (place, group) in groups.iter_mut().enumerate() {
-                let ahead = if place == 0 {
-                    // The largest group comes first, and the next piece is mostly the one behind this.
-                    let next = halo_starts[number + 1]..halo_starts[(number + 2).min(count)];
-                    Ahead { rows: rows.end..rows.end + rows.len(), halo: &halos[next] }
-                } else {
-                    Ahead::default()
+                // The largest group comes first, and the next piece is mostly the one behind this.
+                let ahead = match place {
+                    0 => Ahead { rows: rows.end..rows.end + rows.len(), halo: halos.of(number + 1) },
+                    _ => Ahead::default(),
                 };
-                // SAFETY: rows and places were listed for these columns and loads. `finish`, which writes
+                // SAFETY: rows and places were listed for these columns and sums. `finish`, which writes
                 // rows, is not called for rows of this piece or its halo before it has counted down.
-                unsafe { sweep(group, loads, moving, walls, advance, ahead) };
+                unsafe { sweep(group, sums, moving, walls, advance, ahead) };
                 clock.lap(match group.partner {
                     Partner::Particle => &mut phases.pairs,
                     Partner::Wall(_) => &mut phases.walls,
                 });
             }
+            let rows = rows.clone();
+            let (own, halo) = sums.split_at_mut(rows.len());
+            let start = row_count + halos.starts[number];
+            // SAFETY: only this piece writes these places; they are read after it has counted down.
+            unsafe { loads.range_mut(start..start + halo.len()) }.copy_from_slice(halo);
             // SAFETY: from here on the piece is only read, until the next sweep.
             let piece = unsafe { pieces.get(number) };
-            let dependents = piece.dependents.iter().map(|&dependent| dependent as usize);
-            for ready in std::iter::once(number).chain(dependents) {
-                if pending[ready].is_over() {
-                    // SAFETY: the sweep over the piece and over all with a part in it is over; this
-                    // thread alone has seen the end of the countdown.
-                    unsafe { complete(pieces.get(ready), halos, loads, row_count) };
-                    let rows = unsafe { pieces.get(ready) }.rows.clone();
-                    finish(ready, rows);
+            if pending[number].has_one_left() {
+                pending[number].begin_anew();
+                // SAFETY (here and below): all pieces with a part in this one have counted down, and this
+                // thread alone has seen the end of the countdown.
+                unsafe { complete(piece, own, halos.rows, loads, row_count) };
+                finish(number, rows.clone(), own);
+                if keep {
+                    // SAFETY: the loads of these rows, which this thread alone has finished.
+                    unsafe { loads.range_mut(rows) }.copy_from_slice(own);
                 }
+            } else {
+                // SAFETY: the sums of these rows, which are not complete.
+                unsafe { loads.range_mut(rows) }.copy_from_slice(own);
+                finish_if_over(number, pieces, loads);
+            }
+            for &later in &piece.dependents {
+                finish_if_over(later as usize, pieces, loads);
             }
         });
     }
 
     /// The sum of all contacts' energies, group by group: the same for any number of threads.
     pub(crate) fn energies(&self) -> ContactEnergies {
-        let mut sum = ContactEnergies::default();
+        let mut sum = ContactEnergies::<Lanes<8>>::default();
         for group in self.groups() {
             sum += group.totals.energies;
         }
-        sum
+        sum.sum_lanes()
     }
 
     /// Adds the force of every wall on the particles to its place in `forces`.
@@ -217,18 +257,39 @@ impl ContactTable {
     }
 }
 
-/// Adds to the loads on the rows of a piece what earlier pieces' halos hold of them, and leaves zeros
-/// there.
+/// The halos of all pieces.
+#[derive(Clone, Copy)]
+struct Halos<'a> {
+    rows: &'a [u32],
+    starts: &'a [usize],
+}
+
+impl<'a> Halos<'a> {
+    /// The halo of a piece; none behind the last piece.
+    fn of(self, number: usize) -> &'a [u32] {
+        match self.starts.get(number..number + 2) {
+            Some(&[start, end]) => &self.rows[start..end],
+            _ => &[],
+        }
+    }
+}
+
+/// Adds to the loads on the rows of a piece what earlier pieces' halos hold of them, in their order.
 ///
 /// # Safety
-/// All contacts of the piece and of those with a part in it have been computed, and no other thread
-/// completes the same piece.
-unsafe fn complete(piece: &Piece, halos: &[u32], loads: Shared<'_, Load>, rows: usize) {
+/// All contacts of the piece and of those with a part in it have been computed.
+unsafe fn complete(
+    piece: &Piece,
+    own: &mut [Load],
+    halos: &[u32],
+    loads: Shared<'_, Load>,
+    row_count: usize,
+) {
     for Incoming { slots } in &piece.incoming {
         for slot in slots.clone() {
-            // SAFETY: the caller's; a part of a halo belongs to the rows of one piece only.
-            let (part, sum) = unsafe { (loads.get_mut(rows + slot), loads.get_mut(halos[slot] as usize)) };
-            let part = std::mem::take(part);
+            // SAFETY: the caller's; places of halos lie behind those of all rows.
+            let part = unsafe { loads.get(row_count + slot) };
+            let sum = &mut own[halos[slot] as usize - piece.rows.start];
             sum.force.vector += part.force.vector;
             sum.torque.vector += part.torque.vector;
         }

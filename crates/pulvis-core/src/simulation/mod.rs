@@ -11,7 +11,7 @@ use pulvis_math::{InstructionSet, Quad, Vector3};
 use crate::background::Background;
 use crate::contacts::{Advance, ContactTable, Interactions, MemoryStore, Surroundings, WallMotionNow};
 use crate::domain::Domain;
-use crate::integrator::{Columns, Kick, KickAndDrift};
+use crate::integrator::{Columns, Kick, KickAndDrift, Step};
 use crate::ledger::Running;
 use crate::neighbours::{CellGrid, Outdated, Skin};
 use crate::particles::{Load, MaterialIndex, Particle, Particles};
@@ -218,17 +218,25 @@ impl Simulation {
     /// where it was listed [m²].
     fn kick_and_drift(&mut self) -> f64 {
         let pieces = self.contacts.pieces();
+        let (instructions, step) = (self.instructions, self.step_of_rows());
         let columns = Columns::of(&mut self.particles, self.skin.listed());
-        let (instructions, time_step) = (self.instructions, self.time_step);
         let timed = self.phases.is_some();
         self.team.for_each(&mut self.outcomes, |number, outcome| {
             let mut clock = Stopwatch::start(timed);
             let rows = pieces[number].rows.clone();
             // SAFETY: pieces have different rows.
-            outcome.farthest = instructions.run(unsafe { KickAndDrift::new(columns, rows, time_step) });
+            outcome.farthest = unsafe {
+                let loads = columns.loads.range_mut(rows.clone());
+                instructions.run(KickAndDrift::new(columns, rows, loads, step))
+            };
             clock.lap(&mut outcome.seconds);
         });
         farthest(&self.outcomes)
+    }
+
+    fn step_of_rows(&self) -> Step {
+        let turning = self.interactions.models().any(|model| model.composition.has_resistance_dashpot());
+        Step { time_step: self.time_step, predicts_spins: turning || self.background.has_drag() }
     }
 
     /// Lists the candidates anew if particles have moved too far, the square of the longest way being
@@ -292,6 +300,7 @@ impl Simulation {
             ledger: self.accounting,
             instructions: self.instructions,
         };
+        let step = self.step_of_rows();
         let columns = Columns::of(&mut self.particles, self.skin.listed());
         let (instructions, background) = (self.instructions, &self.background);
         let outcomes = Shared::new(&mut self.outcomes);
@@ -301,15 +310,18 @@ impl Simulation {
             &self.walls_now,
             &advance,
             &self.team,
-            |number, rows| {
+            !onwards,
+            |number, rows, loads| {
                 // SAFETY: each piece is finished once, and nobody reads its rows any more.
                 unsafe {
                     let outcome = outcomes.get_mut(number);
                     let mut clock = Stopwatch::start(advance.timed);
                     let half = 0.5 * time_step;
-                    outcome.power = instructions.run(Kick::new(columns, rows.clone(), background, half));
+                    let kick = Kick::new(columns, rows.clone(), &mut *loads, background, half);
+                    outcome.power = instructions.run(kick);
                     if onwards {
-                        outcome.farthest = instructions.run(KickAndDrift::new(columns, rows, time_step));
+                        let drift = KickAndDrift::new(columns, rows, loads, step);
+                        outcome.farthest = instructions.run(drift);
                     }
                     clock.lap(&mut outcome.seconds);
                 }
@@ -331,7 +343,6 @@ impl Simulation {
         for (predicted, now) in particles.spin_predicted.iter_mut().zip(&particles.spin) {
             predicted.vector = now.vector;
         }
-        particles.loads.fill(Load::default());
         // No block is passed over: whatever was switched may act at once.
         let (background_power, _) = self.forces_and_kick(f64::INFINITY, true, false);
         self.running.take_in(self.contacts.energies(), background_power, 0.0);

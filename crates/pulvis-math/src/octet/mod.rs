@@ -65,6 +65,13 @@ pub trait Octet: Real {
     fn load(source: &Lanes<8>) -> Self;
     /// Into memory.
     fn store(self, target: &mut Lanes<8>);
+    /// In memory.
+    #[inline(always)]
+    fn to_lanes(self) -> Lanes<8> {
+        let mut lanes = Lanes::default();
+        self.store(&mut lanes);
+        lanes
+    }
     /// The columns of eight rows: x, y, z and the scalar of each.
     fn columns(rows: [Self::Row; 8]) -> [Self; 4];
     /// The rows of four columns.
