@@ -67,6 +67,9 @@ pub struct Simulation {
     walls_now: Vec<WallMotionNow>,
     on_particles: Vec<Vector3>,
     skin: Skin,
+    /// Whether the skin is the engine's own choice.
+    chooses_skin: bool,
+    mean_radius: f64,
     running: Running,
     rebuilds: u64,
 }
@@ -82,9 +85,13 @@ struct Outcome {
     seconds: f64,
 }
 
-/// The skin of the candidate list over the mean radius. Thicker lists are renewed less often but hold
-/// more candidates that do not touch.
-const SKIN_PER_RADIUS: f64 = 0.2;
+/// The skin of the candidate list over the mean radius, in a packing and in a gas. Thicker lists are
+/// renewed less often but hold more candidates that do not touch; a gas has few.
+const SKIN_OF_PACKING: f64 = 0.3;
+const SKIN_OF_GAS: f64 = 0.8;
+/// Candidates per particle below which the one is taken for a gas, and above which it is for a packing.
+const GAS: f64 = 1.0;
+const PACKING: f64 = 3.0;
 
 impl Simulation {
     /// Sets the simulation up and computes the forces of its initial state.
@@ -115,6 +122,8 @@ impl Simulation {
             walls_now: Vec::new(),
             on_particles: Vec::new(),
             skin: Skin::default(),
+            chooses_skin: true,
+            mean_radius: 0.0,
             running: Running::default(),
             rebuilds: 0,
         };
@@ -125,7 +134,8 @@ impl Simulation {
         simulation.check_models()?;
         simulation.check_walls()?;
         let count = simulation.particles.len().max(1) as f64;
-        simulation.skin.thickness = SKIN_PER_RADIUS * simulation.particles.radius.iter().sum::<f64>() / count;
+        simulation.mean_radius = simulation.particles.radius.iter().sum::<f64>() / count;
+        simulation.skin.thickness = SKIN_OF_PACKING * simulation.mean_radius;
         simulation.check_periods()?;
         for (wall, state) in simulation.walls.iter().zip(&mut simulation.wall_states) {
             state.start(&wall.motion);
@@ -354,11 +364,31 @@ impl Simulation {
     fn renew_candidates(&mut self) {
         let mut clock = Stopwatch::start(self.phases.is_some());
         self.phases = self.phases();
+        self.choose_skin();
         self.contacts.remember(&mut self.memory, self.particles.len());
         self.rebuild();
         self.rebuilds += 1;
         if let Some(phases) = &mut self.phases {
             clock.lap(&mut phases.neighbours);
+        }
+    }
+
+    /// Takes the skin that suits the number of candidates in the present list, as far as periods allow.
+    fn choose_skin(&mut self) {
+        if !self.chooses_skin {
+            return;
+        }
+        let candidates = self.candidates() as f64 / self.particles.len().max(1) as f64;
+        let suited = if candidates < GAS {
+            SKIN_OF_GAS
+        } else if candidates > PACKING {
+            SKIN_OF_PACKING
+        } else {
+            return;
+        };
+        let before = std::mem::replace(&mut self.skin.thickness, suited * self.mean_radius);
+        if self.check_periods().is_err() {
+            self.skin.thickness = before;
         }
     }
 

@@ -92,9 +92,9 @@ impl Simulation {
         });
     }
 
-    /// Sets how far beyond their reach candidates are listed [m]; at the start a fifth of the mean
-    /// radius. Thicker lists are renewed less often but hold more candidates that do not touch. A
-    /// skin must be thicker than what any particle moves in a step.
+    /// Sets how far beyond their reach candidates are listed [m]; by default 0.3 of the mean
+    /// radius in a packing and 0.8 in a gas. Thicker lists are renewed less often but hold more
+    /// candidates that do not touch. A skin must be thicker than what any particle moves in a step.
     pub fn set_skin(&mut self, thickness: f64) -> Result<(), SetupError> {
         // What is no number counts as no skin.
         let before = std::mem::replace(&mut self.skin.thickness, thickness.max(0.0));
@@ -102,6 +102,7 @@ impl Simulation {
             self.skin.thickness = before;
             return Err(error);
         }
+        self.chooses_skin = false;
         self.switch(|simulation| simulation.renew_candidates());
         Ok(())
     }
