@@ -48,6 +48,19 @@ impl<'a, T> Shared<'a, T> {
         unsafe { &*self.start.add(place) }
     }
 
+    /// One item, by the place of its first number: processors scale an index by the size of a number on
+    /// the way, but not by that of a larger item.
+    ///
+    /// # Safety
+    /// `number` is the place of an item within the slice, in numbers, and nobody writes the item while
+    /// the reference lives.
+    #[inline(always)]
+    pub(crate) unsafe fn get_at_number(&self, number: u32) -> &'a T {
+        debug_assert!(number as usize * size_of::<f64>() < self.length * size_of::<T>());
+        // SAFETY: the caller's.
+        unsafe { &*self.start.cast::<f64>().add(number as usize).cast::<T>() }
+    }
+
     /// One item, for writing.
     ///
     /// # Safety
@@ -57,6 +70,18 @@ impl<'a, T> Shared<'a, T> {
         debug_assert!(place < self.length);
         // SAFETY: the caller's.
         unsafe { &mut *self.start.add(place) }
+    }
+
+    /// One item, for writing, by the place of its first number as in
+    /// [`get_at_number`](Self::get_at_number).
+    ///
+    /// # Safety
+    /// As there, and nobody else uses the item while the reference lives.
+    #[inline(always)]
+    pub(crate) unsafe fn get_mut_at_number(&self, number: u32) -> &'a mut T {
+        debug_assert!(number as usize * size_of::<f64>() < self.length * size_of::<T>());
+        // SAFETY: the caller's.
+        unsafe { &mut *self.start.cast::<f64>().add(number as usize).cast::<T>() }
     }
 
     /// A range of items, for writing.

@@ -9,6 +9,11 @@ use super::layout::{Lane, Layout};
 /// Contacts in a block.
 pub(crate) const WIDTH: usize = 8;
 
+/// Numbers in a quad, and in a load. Rows are kept as the places of their numbers: processors multiply an
+/// index by the size of a number on the way, but not by that of a quad.
+pub(crate) const QUAD: u32 = 4;
+pub(crate) const LOAD: u32 = 8;
+
 /// What the first body of a group's contacts may meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Partner {
@@ -25,11 +30,11 @@ pub(crate) struct ContactGroup {
     pub(crate) model: ContactModel,
     pub(crate) layout: Layout,
     pub(crate) partner: Partner,
-    /// Rows of the first bodies; a last, incomplete block repeats its first contact.
+    /// Rows of the first bodies, times [`QUAD`]; a last, incomplete block repeats its first contact.
     pub(crate) first: Vec<[u32; WIDTH]>,
-    /// Rows of the second bodies; empty for walls.
+    /// Rows of the second bodies, times [`QUAD`]; empty for walls.
     pub(crate) second: Vec<[u32; WIDTH]>,
-    /// Where the loads on the first bodies are summed: places among those of the piece.
+    /// Where the loads on the first bodies are summed: places among those of the piece, times [`LOAD`].
     pub(crate) first_sum: Vec<[u32; WIDTH]>,
     /// The same for the second bodies; empty for walls.
     pub(crate) second_sum: Vec<[u32; WIDTH]>,
@@ -104,8 +109,8 @@ impl ContactGroup {
     /// Adds a candidate contact, with its memory where it has any.
     pub(crate) fn push(&mut self, candidate: &Candidate, remembered: Option<&[f64]>) {
         let lane = self.count % WIDTH;
-        let [first, second] = candidate.rows;
-        let [first_sum, second_sum] = candidate.sums;
+        let [first, second] = candidate.rows.map(|row| row * QUAD);
+        let [first_sum, second_sum] = candidate.sums.map(|place| place * LOAD);
         if lane == 0 {
             self.first.push([first; WIDTH]);
             self.first_sum.push([first_sum; WIDTH]);
@@ -133,6 +138,16 @@ impl ContactGroup {
             self.live[block] = true;
         }
         self.count += 1;
+    }
+
+    /// Row of the first body of a contact.
+    pub(crate) fn first_row(&self, block: usize, lane: usize) -> u32 {
+        self.first[block][lane] / QUAD
+    }
+
+    /// Row of the second body of a contact between particles.
+    pub(crate) fn second_row(&self, block: usize, lane: usize) -> u32 {
+        self.second[block][lane] / QUAD
     }
 
     /// The columns of memory of a block.

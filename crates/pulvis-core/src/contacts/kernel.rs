@@ -165,14 +165,14 @@ unsafe fn gather<R: Octet>(column: Shared<'_, Quad>, rows: &[u32; WIDTH]) -> (Ve
     // SAFETY: the caller's.
     let [x, y, z, scalar] = unsafe {
         R::columns([
-            R::Row::load(column.get(rows[0] as usize)),
-            R::Row::load(column.get(rows[1] as usize)),
-            R::Row::load(column.get(rows[2] as usize)),
-            R::Row::load(column.get(rows[3] as usize)),
-            R::Row::load(column.get(rows[4] as usize)),
-            R::Row::load(column.get(rows[5] as usize)),
-            R::Row::load(column.get(rows[6] as usize)),
-            R::Row::load(column.get(rows[7] as usize)),
+            R::Row::load(column.get_at_number(rows[0])),
+            R::Row::load(column.get_at_number(rows[1])),
+            R::Row::load(column.get_at_number(rows[2])),
+            R::Row::load(column.get_at_number(rows[3])),
+            R::Row::load(column.get_at_number(rows[4])),
+            R::Row::load(column.get_at_number(rows[5])),
+            R::Row::load(column.get_at_number(rows[6])),
+            R::Row::load(column.get_at_number(rows[7])),
         ])
     };
     (Vector3::new(x, y, z), scalar)
@@ -188,10 +188,8 @@ fn rows_of<R: Octet>(vector: Vector3<R>) -> [R::Row; WIDTH] {
 macro_rules! add_rows {
     ($sums:expr, $places:expr, $part:ident, $sum:ident, $rows:expr) => {
         for lane in 0..WIDTH {
-            let place = $places[lane] as usize;
-            debug_assert!(place < $sums.len());
             // SAFETY: places lie within the sums, as the caller of `sweep` vouches.
-            let slot = unsafe { &mut $sums.get_unchecked_mut(place).$part };
+            let slot = unsafe { &mut $sums.get_mut_at_number($places[lane]).$part };
             R::Row::load(slot).$sum($rows[lane]).store(slot);
         }
     };
@@ -229,6 +227,7 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
     #[inline(always)]
     fn run<R: Octet>(self) {
         let Self { law, contacts: Loop { group, sums, moving, advance, mut ahead } } = self;
+        let sums = Shared::new(sums);
         // By value: not to be read anew after every store.
         let (composition, layout, advance) = (group.model.composition, group.layout, *advance);
         let columns = layout.columns();
@@ -367,6 +366,7 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
     #[inline(always)]
     fn run<R: Octet>(self) {
         let Self { law, contacts: Loop { group, sums, moving, advance, .. }, wall } = self;
+        let sums = Shared::new(sums);
         let (composition, layout, advance) = (group.model.composition, group.layout, *advance);
         let columns = layout.columns();
         let reach = R::splat(-composition.noncontact.reach());

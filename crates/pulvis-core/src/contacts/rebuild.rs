@@ -44,9 +44,9 @@ impl MemoryStore {
         for group in groups {
             let layout = store.number_of(group);
             group.for_each_memory(|block, lane, record| {
-                let first = group.first[block][lane];
+                let first = group.first_row(block, lane);
                 let partner = match group.partner {
-                    Partner::Particle => group.second[block][lane],
+                    Partner::Particle => group.second_row(block, lane),
                     Partner::Wall(wall) => wall_partner(wall),
                 };
                 unsorted.push((first, Entry { partner, layout, record: store.records.len() }));

@@ -76,7 +76,7 @@ impl NormalLawVisitor for Looking<'_, '_> {
 impl Views<'_> {
     fn look<N: NormalLaw>(&self, law: &N, block: usize, lane: usize) -> Option<ContactView> {
         let group = self.group;
-        let seen = self.geometry(group.first[block][lane] as usize, block, lane)?;
+        let seen = self.geometry(group.first_row(block, lane) as usize, block, lane)?;
         let composition = &group.model.composition;
         if seen.motion.overlap <= -composition.noncontact.reach() {
             return None;
@@ -119,7 +119,7 @@ impl Views<'_> {
         let first = particles.id[i];
         match self.group.partner {
             Partner::Particle => {
-                let j = self.group.second[block][lane] as usize;
+                let j = self.group.second_row(block, lane) as usize;
                 let separation = self.images.nearest(centre - particles.place[j].vector);
                 let inverse_distance = 1.0 / separation.norm();
                 let motion = PairMotion {
