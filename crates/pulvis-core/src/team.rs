@@ -91,20 +91,26 @@ struct Cursor(AtomicUsize);
 /// What the leader and its helpers share.
 #[derive(Default)]
 struct Board {
-    /// Counts the regions; a helper works when it has changed.
-    region: AtomicU64,
-    /// The work of the present region; valid from the change of `region` until `busy` is zero.
+    /// The number of the region, whether it is open, and how many helpers have joined it.
+    state: AtomicU64,
+    /// The work of the open region; valid for those who have joined until they are `done`.
     job: UnsafeCell<Option<*const Job<'static>>>,
-    /// Helpers that have not finished.
-    busy: AtomicUsize,
+    /// Helpers that have joined the present region and finished.
+    done: AtomicU64,
     stop: AtomicBool,
     sleeping: Vec<AtomicBool>,
     cursors: Vec<Cursor>,
     panic: Mutex<Option<Box<dyn Any + Send>>>,
 }
 
-// SAFETY: `job` is written by the leader only, which waits for `busy` to be zero; helpers read it only
-// between the change of `region` (release, acquire) and their own decrement of `busy`.
+/// Parts of the state of a board: helpers in the lower half, then one bit, then the region.
+const OPEN: u64 = 1 << 32;
+const HELPERS: u64 = OPEN - 1;
+const REGION: u64 = OPEN << 1;
+
+// SAFETY: `job` is written by the leader only, before it opens a region (release) and after all who had
+// joined the last one are done (acquire); helpers read it only between joining (acquire) and being done
+// (release), and none can join a region that the leader has closed.
 unsafe impl Sync for Board {}
 // SAFETY: the pointer in `job` is to something that is `Sync`.
 unsafe impl Send for Board {}
@@ -142,25 +148,29 @@ impl Crew {
         self.leader.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Calls `job` with the number of every member, on that member's thread, and waits for all.
+    /// Calls `job` with the number of every member that comes in time, on that member's thread, this one
+    /// first of all, and waits for those. Helpers that have not come when this thread has finished are not
+    /// waited for: other programs may have taken their processors.
     fn region(&self, _lead: &MutexGuard<'_, ()>, job: &Job<'_>) {
         let board = &*self.shared;
-        // SAFETY: only the lifetime changes; no helper uses the job after `busy` has become zero, for
-        // which this function waits, also if its own share panics.
+        // SAFETY: only the lifetime changes; no helper uses the job after it is done, for which this
+        // function waits, also if its own share panics.
         let job_for_helpers: *const Job<'static> =
             unsafe { std::mem::transmute::<*const Job<'_>, *const Job<'static>>(&raw const *job) };
-        // SAFETY: all helpers wait, see `Sync for Board`.
+        // SAFETY: the last region is closed and all who joined it are done, see `Sync for Board`.
         unsafe { *board.job.get() = Some(job_for_helpers) };
-        board.busy.store(self.helpers.len(), Ordering::Relaxed);
-        board.region.fetch_add(1, Ordering::SeqCst);
+        board.done.store(0, Ordering::Relaxed);
+        let region = board.state.load(Ordering::Relaxed) / REGION + 1;
+        board.state.store(region * REGION + OPEN, Ordering::SeqCst);
         for (helper, sleeping) in self.helpers.iter().zip(&board.sleeping[1..]) {
             if sleeping.load(Ordering::SeqCst) {
                 helper.thread().unpark();
             }
         }
         let own = catch_unwind(AssertUnwindSafe(|| job(0)));
+        let joined = board.state.fetch_and(!OPEN, Ordering::AcqRel) & HELPERS;
         let mut rounds = 0;
-        while board.busy.load(Ordering::Acquire) != 0 {
+        while board.done.load(Ordering::Acquire) != joined {
             wait(&mut rounds);
         }
         if let Err(panic) = own {
@@ -176,7 +186,7 @@ impl Crew {
 impl Drop for Crew {
     fn drop(&mut self) {
         self.shared.stop.store(true, Ordering::SeqCst);
-        self.shared.region.fetch_add(1, Ordering::SeqCst);
+        self.shared.state.fetch_add(REGION, Ordering::SeqCst);
         for helper in self.helpers.drain(..) {
             Thread::unpark(helper.thread());
             // A helper catches what its work panics with; there is nothing to learn here.
@@ -200,24 +210,28 @@ fn help(board: &Board, member: usize) {
     let mut seen = 0;
     loop {
         let mut rounds = 0;
-        while board.region.load(Ordering::Acquire) == seen {
+        while board.state.load(Ordering::Acquire) / REGION == seen {
             if rounds < SPINS + YIELDS {
                 wait(&mut rounds);
                 continue;
             }
             board.sleeping[member].store(true, Ordering::SeqCst);
             // Looked at once more: the leader may have begun a region without seeing the flag.
-            if board.region.load(Ordering::SeqCst) == seen {
+            if board.state.load(Ordering::SeqCst) / REGION == seen {
                 std::thread::park();
             }
             board.sleeping[member].store(false, Ordering::SeqCst);
         }
-        seen += 1;
         if board.stop.load(Ordering::SeqCst) {
             return;
         }
-        // SAFETY: the region has begun and this helper has not finished, see `Sync for Board`; the leader
-        // keeps the job alive until then.
+        let (region, joined) = join(board);
+        seen = region;
+        if !joined {
+            continue;
+        }
+        // SAFETY: this helper has joined and is not done, see `Sync for Board`; the leader keeps the job
+        // alive until then.
         let outcome = catch_unwind(AssertUnwindSafe(|| unsafe {
             if let Some(job) = *board.job.get() {
                 (*job)(member);
@@ -226,8 +240,21 @@ fn help(board: &Board, member: usize) {
         if let Err(panic) = outcome {
             *board.panic.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic);
         }
-        board.busy.fetch_sub(1, Ordering::Release);
+        board.done.fetch_add(1, Ordering::Release);
     }
+}
+
+/// Joins the present region. Answers with its number, and whether it was still open.
+fn join(board: &Board) -> (u64, bool) {
+    let mut state = board.state.load(Ordering::Acquire);
+    while state & OPEN != 0 {
+        let next = board.state.compare_exchange_weak(state, state + 1, Ordering::AcqRel, Ordering::Acquire);
+        match next {
+            Ok(_) => return (state / REGION, true),
+            Err(now) => state = now,
+        }
+    }
+    (state / REGION, false)
 }
 
 #[cfg(test)]
