@@ -1,141 +1,164 @@
 //! One sweep over the contacts, compiled for each instruction set that the engine chooses from.
 
-use pulvis_contact::{Composition, NormalLaw, resistance};
-use pulvis_math::Real;
+use std::fmt;
+
+use pulvis_contact::{Composition, ContactEnergies, NormalLaw, Pair, resistance};
+use pulvis_math::{InstructionSet, Kernel, Lanes, Octet, Real};
 
 use super::contacts::{Contacts, Store};
+use super::stored::{MemoryColumns, Stored, load_motion, store_vector};
+
+/// The step that springs are advanced by [s].
+const TIME_STEP: f64 = 4e-6;
 
 /// What the code is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Build {
-    /// One contact at a time.
+    /// One contact at a time, with what every processor of the family has.
     Scalar,
-    /// Eight at a time, with what every processor of the family has (x86-64: SSE2).
-    Baseline,
-    /// Eight at a time, AVX2.
-    Avx2,
-    /// Eight at a time, AVX-512.
-    Avx512,
-}
-
-/// The sweeps to be done.
-#[derive(Clone, Copy)]
-pub(super) struct Sweep<'a, R: Real, N> {
-    pub(super) law: &'a N,
-    pub(super) composition: &'a Composition,
-    pub(super) contacts: &'a Contacts<R>,
-    pub(super) ledger: bool,
+    /// Eight at a time.
+    Eight(InstructionSet),
 }
 
 impl Build {
-    pub(super) const ALL: [Self; 4] = [Self::Scalar, Self::Baseline, Self::Avx2, Self::Avx512];
+    /// Everything that this processor can run.
+    pub(super) fn available() -> Vec<Self> {
+        let sets = InstructionSet::available().into_iter().map(Self::Eight);
+        std::iter::once(Self::Scalar).chain(sets).collect()
+    }
+}
 
-    pub(super) fn name(self) -> &'static str {
+impl fmt::Display for Build {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Scalar => "scalar",
-            Self::Baseline => "baseline x 8",
-            Self::Avx2 => "avx2 x 8",
-            Self::Avx512 => "avx512 x 8",
-        }
-    }
-
-    /// Whether this machine can run it.
-    pub(super) fn is_available(self) -> bool {
-        match self {
-            Self::Scalar | Self::Baseline => true,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => is_x86_feature_detected!("avx2"),
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => has_avx512(),
-            #[cfg(not(target_arch = "x86_64"))]
-            Self::Avx2 | Self::Avx512 => false,
-        }
-    }
-
-    /// Sweeps over all contacts; falls back to the baseline where the machine lacks the instructions.
-    pub(super) fn execute<R: Real, N: NormalLaw>(
-        self,
-        sweep: Sweep<'_, R, N>,
-        store: &mut Store<R, N>,
-        sweeps: usize,
-    ) {
-        match (self, self.is_available()) {
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: `is_available` has found the instructions.
-            (Self::Avx2, true) => unsafe { sweep_avx2(sweep, store, sweeps) },
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: `is_available` has found the instructions.
-            (Self::Avx512, true) => unsafe { sweep_avx512(sweep, store, sweeps) },
-            _ => sweep_baseline(sweep, store, sweeps),
+            Self::Scalar => out.write_str("scalar"),
+            Self::Eight(set) => write!(out, "{set} x 8"),
         }
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-fn has_avx512() -> bool {
-    is_x86_feature_detected!("avx512f")
-        && is_x86_feature_detected!("avx512dq")
-        && is_x86_feature_detected!("avx512vl")
-        && is_x86_feature_detected!("avx512bw")
+/// The sweeps to be done over contacts that are kept in columns of `S`.
+pub(super) struct Sweep<'a, S, N, const RESISTANCE: u8, const LEDGER: bool> {
+    pub(super) law: N,
+    pub(super) composition: Composition,
+    pub(super) contacts: &'a Contacts<S>,
+    pub(super) store: &'a mut Store<S>,
+    pub(super) sweeps: usize,
 }
 
-#[inline(never)]
-fn sweep_baseline<R: Real, N: NormalLaw>(sweep: Sweep<'_, R, N>, store: &mut Store<R, N>, sweeps: usize) {
-    sweep_with_options(sweep, store, sweeps);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn sweep_avx2<R: Real, N: NormalLaw>(sweep: Sweep<'_, R, N>, store: &mut Store<R, N>, sweeps: usize) {
-    sweep_with_options(sweep, store, sweeps);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
-fn sweep_avx512<R: Real, N: NormalLaw>(sweep: Sweep<'_, R, N>, store: &mut Store<R, N>, sweeps: usize) {
-    sweep_with_options(sweep, store, sweeps);
-}
-
-#[inline(always)]
-fn sweep_with_options<R: Real, N: NormalLaw>(sweep: Sweep<'_, R, N>, store: &mut Store<R, N>, sweeps: usize) {
-    match (sweep.composition.resistance_level(), sweep.ledger) {
-        (resistance::NONE, true) => sweep_contacts::<R, N, { resistance::NONE }, true>(sweep, store, sweeps),
-        (resistance::NONE, false) => {
-            sweep_contacts::<R, N, { resistance::NONE }, false>(sweep, store, sweeps)
-        }
-        (resistance::SLIDING, true) => {
-            sweep_contacts::<R, N, { resistance::SLIDING }, true>(sweep, store, sweeps)
-        }
-        (resistance::SLIDING, false) => {
-            sweep_contacts::<R, N, { resistance::SLIDING }, false>(sweep, store, sweeps)
-        }
-        (_, true) => sweep_contacts::<R, N, { resistance::ALL }, true>(sweep, store, sweeps),
-        (_, false) => sweep_contacts::<R, N, { resistance::ALL }, false>(sweep, store, sweeps),
+impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, f64, N, RESISTANCE, LEDGER> {
+    /// Sweeps over one contact at a time.
+    #[inline(never)]
+    pub(super) fn one_at_a_time(self) {
+        self.with::<f64>();
     }
 }
 
-/// The law's text as the engine calls it. Forces are stored and energies summed, or else the compiler
-/// would leave them out.
-#[inline(always)]
-fn sweep_contacts<R: Real, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(
-    sweep: Sweep<'_, R, N>,
-    store: &mut Store<R, N>,
-    sweeps: usize,
-) {
-    let Sweep { law, composition, contacts, .. } = sweep;
-    // By value, as the engine has it: not to be read anew after every store.
-    let (law, composition) = (*law, *composition);
-    let mut energies = store.energies;
-    for turn in 0..sweeps {
-        let motions = &contacts.motions[turn % 2];
-        let each = motions.iter().zip(&contacts.pairs).zip(&mut store.memory).zip(&mut store.forces);
-        for (((motion, pair), memory), forces) in each {
-            let answer = composition.respond::<R, N, RESISTANCE>(&law, pair, motion, 4e-6, memory);
-            *forces = [answer.force, answer.torque_i, answer.torque_j];
-            if LEDGER {
-                energies += answer.energies;
+impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel
+    for Sweep<'_, Lanes<8>, N, RESISTANCE, LEDGER>
+{
+    type Output = ();
+    #[inline(always)]
+    fn run<R: Octet>(self) {
+        self.with::<R>();
+    }
+}
+
+impl<S, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, S, N, RESISTANCE, LEDGER> {
+    /// The law's text as the engine calls it. Forces are stored and energies summed, or else the compiler
+    /// would leave them out.
+    #[inline(always)]
+    fn with<R: Real>(self)
+    where
+        S: Stored<R>,
+    {
+        let Self { law, composition, contacts, store, sweeps } = self;
+        let places = MemoryColumns::<RESISTANCE>::of::<N>(&composition);
+        let columns = places.count();
+        let mut energies = ContactEnergies::<R>::default();
+        for turn in 0..sweeps {
+            let motions = &contacts.motions[turn % 2];
+            for (group, stored) in motions.iter().enumerate() {
+                let [inverse_mass_i, inverse_mass_j, inverse_radius_i, inverse_radius_j] =
+                    &contacts.inverses[group];
+                let pair = Pair::spheres_from_inverses(
+                    inverse_mass_i.load(),
+                    inverse_mass_j.load(),
+                    inverse_radius_i.load(),
+                    inverse_radius_j.load(),
+                );
+                let motion = load_motion::<R, S>(stored);
+                let slots = &mut store.memory[group * columns..(group + 1) * columns];
+                let mut memory = places.load::<R, S, N::Memory<R>>(slots);
+                let answer =
+                    composition.respond::<R, N, RESISTANCE>(&law, &pair, &motion, TIME_STEP, &mut memory);
+                places.store(&memory, slots);
+                let [force, torque_i, torque_j] = &mut store.loads[group];
+                store_vector(force, answer.force);
+                if RESISTANCE != resistance::NONE {
+                    store_vector(torque_i, answer.torque_i);
+                    store_vector(torque_j, answer.torque_j);
+                }
+                if LEDGER {
+                    energies += answer.energies;
+                }
             }
         }
+        store.energies += energies.sum_lanes();
     }
-    store.energies = energies;
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+    use pulvis_contact::NormalLawVisitor;
+
+    use super::*;
+    use crate::kernels::cases::cases;
+
+    const COUNT: usize = 64;
+
+    /// Force and torque of every contact after some sweeps, as bits.
+    fn bits<S: Real>(store: &Store<S>) -> Vec<u64> {
+        let contact = |contact: usize| {
+            let loads = store.loads[contact / S::LANES];
+            loads.into_iter().flat_map(move |vector| vector.lane(contact % S::LANES).to_array())
+        };
+        (0..COUNT).flat_map(contact).map(f64::to_bits).collect()
+    }
+
+    struct EveryBuild(Composition);
+
+    impl NormalLawVisitor for EveryBuild {
+        type Output = Vec<Vec<u64>>;
+        fn visit<N: NormalLaw>(self, law: N) -> Vec<Vec<u64>> {
+            fn swept<S: Real, N: NormalLaw>(
+                (law, composition): (N, Composition),
+                run: impl Fn(Sweep<'_, S, N, { resistance::ALL }, true>),
+            ) -> Vec<u64> {
+                let contacts = Contacts::<S>::new();
+                assert_eq!(contacts.count(), COUNT);
+                let mut store = Store::new::<N, { resistance::ALL }>(&contacts, &composition);
+                run(Sweep { law, composition, contacts: &contacts, store: &mut store, sweeps: 5 });
+                bits(&store)
+            }
+            let model = (law, self.0);
+            let run = |build| match build {
+                Build::Scalar => swept(model, |sweep| sweep.one_at_a_time()),
+                Build::Eight(set) => swept(model, |sweep| set.run(sweep)),
+            };
+            Build::available().into_iter().map(run).collect()
+        }
+    }
+
+    #[test]
+    fn every_build_computes_the_same_forces_and_torques() {
+        for case in cases().unwrap() {
+            let mut answers = case.model.normal.accept(EveryBuild(case.model.composition)).into_iter();
+            let scalar = answers.next().unwrap();
+            assert!(scalar.iter().any(|&bits| bits != 0), "{}", case.name);
+            assert!(answers.all(|eight| eight == scalar), "{}", case.name);
+        }
+    }
 }

@@ -2,38 +2,44 @@
 
 use std::f64::consts::TAU;
 
-use pulvis_contact::{ContactEnergies, ContactMemory, NormalLaw, Pair, PairMotion};
+use pulvis_contact::{Composition, ContactEnergies, NormalLaw, PairMotion};
 use pulvis_math::{Real, Vector3};
+
+use super::stored::MemoryColumns;
 
 /// Contacts in all: what they need stays in the first-level cache.
 const COUNT: usize = 64;
 
-/// Constants and motions of the contacts. The motions come twice, so that contacts load and unload.
-pub(super) struct Contacts<R> {
-    pub(super) pairs: Vec<Pair<R>>,
-    pub(super) motions: [Vec<PairMotion<R>>; 2],
+/// Constants and motions of the contacts, in columns of `S`: numbers, or eight numbers each. The motions
+/// come twice, so that contacts load and unload.
+pub(super) struct Contacts<S> {
+    /// One over the masses of i and j [1/kg] and over their radii [1/m].
+    pub(super) inverses: Vec<[S; 4]>,
+    pub(super) motions: [Vec<PairMotion<S>>; 2],
 }
 
 /// What the sweeps write.
-pub(super) struct Store<R: Real, N: NormalLaw> {
-    pub(super) memory: Vec<ContactMemory<R, N::Memory<R>>>,
-    /// Force, torque on i, torque on j.
-    pub(super) forces: Vec<[Vector3<R>; 3]>,
-    pub(super) energies: ContactEnergies<R>,
+pub(super) struct Store<S> {
+    /// Contact memory: its columns of one group of contacts after those of the other.
+    pub(super) memory: Vec<S>,
+    /// Force [N], torque on i and torque on j [N m].
+    pub(super) loads: Vec<[Vector3<S>; 3]>,
+    pub(super) energies: ContactEnergies,
 }
 
-impl<R: Real> Contacts<R> {
-    /// The same contacts whatever `R` is.
+impl<S: Real> Contacts<S> {
+    /// The same contacts whatever `S` is.
     pub(super) fn new() -> Self {
-        let groups = COUNT / R::LANES;
+        let groups = COUNT / S::LANES;
         let spread =
-            |group: usize, value: &dyn Fn(usize) -> f64| R::from_lanes(|lane| value(group * R::LANES + lane));
-        let pair = |group: usize| {
-            let radius_i = spread(group, &|contact| radius(2 * contact));
-            let radius_j = spread(group, &|contact| radius(2 * contact + 1));
-            let mass_i = spread(group, &|contact| mass(radius(2 * contact)));
-            let mass_j = spread(group, &|contact| mass(radius(2 * contact + 1)));
-            Pair::spheres(mass_i, mass_j, radius_i, radius_j)
+            |group: usize, value: &dyn Fn(usize) -> f64| S::from_lanes(|lane| value(group * S::LANES + lane));
+        let inverses = |group: usize| {
+            [
+                spread(group, &|contact| 1.0 / mass(radius(2 * contact))),
+                spread(group, &|contact| 1.0 / mass(radius(2 * contact + 1))),
+                spread(group, &|contact| 1.0 / radius(2 * contact)),
+                spread(group, &|contact| 1.0 / radius(2 * contact + 1)),
+            ]
         };
         let motion = |group: usize, turn: usize| {
             let vector = |value: fn(usize, usize, usize) -> f64| {
@@ -57,23 +63,28 @@ impl<R: Real> Contacts<R> {
             }
         };
         Self {
-            pairs: (0..groups).map(pair).collect(),
+            inverses: (0..groups).map(inverses).collect(),
             motions: [0, 1].map(|turn| (0..groups).map(|group| motion(group, turn)).collect()),
         }
     }
 
     /// Number of contacts.
     pub(super) fn count(&self) -> usize {
-        self.pairs.len() * R::LANES
+        self.inverses.len() * S::LANES
     }
 }
 
-impl<R: Real, N: NormalLaw> Store<R, N> {
+impl<S: Real> Store<S> {
     /// Virgin contacts.
-    pub(super) fn new(contacts: &Contacts<R>) -> Self {
+    pub(super) fn new<N: NormalLaw, const RESISTANCE: u8>(
+        contacts: &Contacts<S>,
+        composition: &Composition,
+    ) -> Self {
+        let groups = contacts.inverses.len();
+        let columns = MemoryColumns::<RESISTANCE>::of::<N>(composition).count();
         Self {
-            memory: vec![ContactMemory::default(); contacts.pairs.len()],
-            forces: vec![Default::default(); contacts.pairs.len()],
+            memory: vec![S::zero(); groups * columns],
+            loads: vec![Default::default(); groups],
             energies: ContactEnergies::default(),
         }
     }

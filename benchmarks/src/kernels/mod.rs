@@ -3,10 +3,11 @@
 mod builds;
 mod cases;
 mod contacts;
+mod stored;
 
 use std::time::Instant;
 
-use pulvis_contact::{Composition, NormalLaw, NormalLawVisitor};
+use pulvis_contact::{Composition, NormalLaw, NormalLawVisitor, resistance};
 use pulvis_math::{Lanes, Real};
 
 use crate::failure::Failure;
@@ -21,21 +22,21 @@ const SWEEPS: usize = 2000;
 
 /// Prints a table of all models whose name holds `only`.
 pub(crate) fn run(only: &str) -> Result<(), Failure> {
-    let builds: Vec<Build> = Build::ALL.into_iter().filter(|build| build.is_available()).collect();
+    let builds = Build::available();
     println!(
         "ns per contact{}; memory of 64 contacts in cache, no gathers and scatters",
         if ticks().is_some() { " (ticks of the time stamp counter)" } else { "" }
     );
     print!("{:44}{:>8}", "model", "ledger");
     for build in &builds {
-        print!("{:>20}", build.name());
+        print!("{:>20}", build.to_string());
     }
     println!();
     for case in cases()?.into_iter().filter(|case| case.name.contains(only)) {
         for ledger in [true, false] {
             print!("{:44}{:>8}", case.name, if ledger { "on" } else { "off" });
             for &build in &builds {
-                let composition = &case.model.composition;
+                let composition = case.model.composition;
                 let cost = case.model.normal.accept(Measured { composition, build, ledger });
                 let ticks = cost.ticks.map_or(String::new(), |ticks| format!(" ({ticks:6.1})"));
                 print!("{:>20}", format!("{:.2}{ticks}", cost.nanoseconds));
@@ -55,31 +56,49 @@ struct Cost {
     ticks: Option<f64>,
 }
 
-struct Measured<'a> {
-    composition: &'a Composition,
+struct Measured {
+    composition: Composition,
     build: Build,
     ledger: bool,
 }
 
-impl NormalLawVisitor for Measured<'_> {
+impl NormalLawVisitor for Measured {
     type Output = Cost;
     fn visit<N: NormalLaw>(self, law: N) -> Cost {
-        if self.build == Build::Scalar { self.of::<f64, N>(&law) } else { self.of::<Lanes<8>, N>(&law) }
+        match (self.composition.resistance_level(), self.ledger) {
+            (resistance::NONE, true) => self.of::<N, { resistance::NONE }, true>(law),
+            (resistance::NONE, false) => self.of::<N, { resistance::NONE }, false>(law),
+            (resistance::SLIDING, true) => self.of::<N, { resistance::SLIDING }, true>(law),
+            (resistance::SLIDING, false) => self.of::<N, { resistance::SLIDING }, false>(law),
+            (_, true) => self.of::<N, { resistance::ALL }, true>(law),
+            (_, false) => self.of::<N, { resistance::ALL }, false>(law),
+        }
     }
 }
 
-impl Measured<'_> {
-    fn of<R: Real, N: NormalLaw>(&self, law: &N) -> Cost {
-        let contacts = Contacts::<R>::new();
-        let mut store = Store::<R, N>::new(&contacts);
-        let sweep = |store: &mut Store<R, N>| {
-            let sweep =
-                Sweep { law, composition: self.composition, contacts: &contacts, ledger: self.ledger };
-            self.build.execute(sweep, store, SWEEPS);
+impl Measured {
+    fn of<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(&self, law: N) -> Cost {
+        match self.build {
+            Build::Scalar => self.run_by::<f64, N, RESISTANCE, LEDGER>(law, |sweep| sweep.one_at_a_time()),
+            Build::Eight(set) => self.run_by::<Lanes<8>, N, RESISTANCE, LEDGER>(law, |sweep| set.run(sweep)),
+        }
+    }
+
+    /// The cost of a contact, all contacts being kept in columns of `S` and sweeps done by `run`.
+    fn run_by<S: Real, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(
+        &self,
+        law: N,
+        run: impl Fn(Sweep<'_, S, N, RESISTANCE, LEDGER>),
+    ) -> Cost {
+        let composition = self.composition;
+        let contacts = Contacts::<S>::new();
+        let mut store = Store::new::<N, RESISTANCE>(&contacts, &composition);
+        let mut pass = || {
+            run(Sweep { law, composition, contacts: &contacts, store: &mut store, sweeps: SWEEPS });
         };
-        sweep(&mut store);
-        let fastest = (0..PASSES).map(|_| timed(|| sweep(&mut store))).min_by(|a, b| a.0.total_cmp(&b.0));
-        std::hint::black_box(&store);
+        pass();
+        let fastest = (0..PASSES).map(|_| timed(&mut pass)).min_by(|a, b| a.0.total_cmp(&b.0));
+        std::hint::black_box((&store.memory, &store.loads, &store.energies));
         let (seconds, ticks) = fastest.unwrap_or_default();
         let count = (SWEEPS * contacts.count()) as f64;
         Cost { nanoseconds: 1e9 * seconds / count, ticks: ticks.map(|ticks| ticks / count) }

@@ -147,7 +147,9 @@ fn check_says_what_the_run_will_be_like_and_writes_nothing() {
         "sticks from 1.5269e-1 to 3.5262e-1 m/s",
         "mix: time step 5.7509e-6 s, 174 steps, shortest contact 2.8755e-4 s (grain-grain)",
         "memory            ",
-        "bytes a particle",
+        " candidate contacts at the start, ",
+        " with the contacts of a dense packing, 12 neighbours each: ",
+        " bytes a particle\n",
         "steps/s on this machine",
         "output            s-run",
     ] {

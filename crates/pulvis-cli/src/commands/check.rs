@@ -56,13 +56,7 @@ fn describe(scenario: &Scenario, forecast: &Preflight) -> String {
             stage.name, stage.time_step
         );
     }
-    let _ = writeln!(
-        text,
-        "memory            {} for {} candidate contacts at the start, {:.0} bytes a particle",
-        bytes(forecast.memory),
-        forecast.candidates,
-        forecast.memory as f64 / forecast.particles.max(1) as f64
-    );
+    describe_memory(&mut text, forecast);
     let seconds = forecast.seconds_per_step;
     let open = if forecast.stages.iter().any(|stage| stage.steps.is_none()) {
         ", and stages of open end"
@@ -78,6 +72,27 @@ fn describe(scenario: &Scenario, forecast: &Preflight) -> String {
     );
     let _ = writeln!(text, "output            {}", scenario.output.folder.display());
     text
+}
+
+fn describe_memory(text: &mut String, forecast: &Preflight) {
+    let of_a_particle = |memory: usize| memory as f64 / forecast.particles.max(1) as f64;
+    let _ = writeln!(
+        text,
+        "memory            {} for {} candidate contacts at the start, {:.0} bytes a particle",
+        bytes(forecast.memory),
+        forecast.candidates,
+        of_a_particle(forecast.memory)
+    );
+    // What starts as a packing has its contacts already.
+    if let Some(packed) = forecast.packed_memory.filter(|&packed| packed > forecast.memory) {
+        let _ = writeln!(
+            text,
+            "{:<17} {} with the contacts of a dense packing, 12 neighbours each: {:.0} bytes a particle",
+            "",
+            bytes(packed),
+            of_a_particle(packed)
+        );
+    }
 }
 
 fn walls(scenario: &Scenario) -> String {

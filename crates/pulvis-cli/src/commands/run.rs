@@ -28,7 +28,7 @@ pub struct Arguments {
     /// Write over the run that is in the output folder
     #[arg(long)]
     force: bool,
-    /// Number of threads; results do not depend on it [default: all processors that have enough to do]
+    /// Number of threads; results do not depend on it [default: all processors that get 500 particles each]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// No progress line

@@ -9,6 +9,7 @@ use pulvis_input::collision::luding_pair;
 use pulvis_input::scenario::{Scenario, WallControl};
 
 use super::error::PrepareError;
+use super::packed::packed_memory;
 use super::setup::{Prepared, between, prepare};
 
 /// Everything that is known of a run before its first step.
@@ -26,8 +27,11 @@ pub struct Preflight {
     pub contacts: Vec<ContactForecast>,
     /// What the stages will be like.
     pub stages: Vec<StageForecast>,
-    /// Memory that the run will need, by the sizes of particles and candidates [byte].
+    /// Memory that the run needs at its start, by the sizes of particles and candidates [byte].
     pub memory: usize,
+    /// Memory that it would need if the particles came to a dense packing, twelve neighbours each [byte];
+    /// `None` where that cannot be told.
+    pub packed_memory: Option<usize>,
     /// Candidate contacts at the start.
     pub candidates: usize,
     /// Wall-clock time of a step, measured over a short trial from the initial state [s].
@@ -88,6 +92,7 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
         contacts: forecasts(scenario, particles),
         stages: stages(scenario, &prepared),
         memory: prepared.simulation.memory_size(),
+        packed_memory: packed_memory(particles, &prepared.stages),
         candidates: prepared.simulation.candidates(),
         seconds_per_step: time_a_step(&prepared),
     })

@@ -126,6 +126,10 @@ const PARTICLES_PER_THREAD: usize = 500;
 
 fn sensible_threads(particles: usize) -> usize {
     let processors = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    threads_for(particles, processors)
+}
+
+fn threads_for(particles: usize, processors: usize) -> usize {
     processors.min(particles / PARTICLES_PER_THREAD).max(1)
 }
 
@@ -376,5 +380,20 @@ impl Pace {
         self.told = Instant::now();
         self.told_steps = steps;
         rate
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_systems_take_all_processors_and_small_ones_as_many_as_they_have_work_for() {
+        let threads = |times: usize, processors| threads_for(times * PARTICLES_PER_THREAD, processors);
+        assert_eq!(
+            [threads(0, 8), threads(1, 8), threads(3, 8), threads(8, 8), threads(1000, 8)],
+            [1, 1, 3, 8, 8]
+        );
+        assert_eq!(threads(1000, 1), 1);
     }
 }

@@ -1,0 +1,251 @@
+//! The bitwise contract: whatever only changes how fast the engine is leaves every bit as it was.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::*;
+use pulvis_contact::noncontact::JumpIn;
+use pulvis_contact::{ContactModel, Linear, NonContact};
+use pulvis_core::arrangement::{Region, gaussian_vector, random_places, random_stream};
+use pulvis_core::walls::{FaceArea, PressureRamp, Servo, WallMotion};
+use pulvis_core::{Background, ContactPartner, Domain, InstructionSet, Setup, Simulation};
+use pulvis_math::Vector3;
+
+const STEPS_PER_CONTACT: f64 = 25.0;
+
+/// How a system is advanced; the physics is the same for all.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    threads: usize,
+    instructions: InstructionSet,
+    ledger: bool,
+    /// Steps at a time.
+    at_a_time: u64,
+}
+
+impl Way {
+    /// One thread, the plainest instructions, step by step.
+    fn plainest() -> Self {
+        Self { threads: 1, instructions: InstructionSet::available()[0], ledger: true, at_a_time: 1 }
+    }
+
+    fn advance(self, setup: &Setup, steps: u64) -> Simulation {
+        let mut simulation = start(setup.clone(), STEPS_PER_CONTACT);
+        simulation.set_threads(self.threads).unwrap();
+        assert_eq!(simulation.threads(), self.threads);
+        simulation.set_instructions(self.instructions);
+        if !self.ledger {
+            simulation.give_up_ledger();
+        }
+        let mut left = steps;
+        while left > 0 {
+            let now = self.at_a_time.min(left);
+            if self.at_a_time == 1 {
+                simulation.step().unwrap();
+            } else {
+                simulation.advance(now).unwrap();
+            }
+            left -= now;
+        }
+        simulation
+    }
+}
+
+type Bits = Vec<(String, Vec<u64>)>;
+
+fn bits_of(vectors: impl Iterator<Item = Vector3>) -> Vec<u64> {
+    vectors.flat_map(Vector3::to_array).map(f64::to_bits).collect()
+}
+
+/// Every number of the state by the names of its kinds: particles in the order of their ids, walls, and
+/// contacts in the order of the engine.
+fn state(simulation: &Simulation) -> Bits {
+    let particles = simulation.particles();
+    let rows = particles.rows_by_id();
+    let columns = [
+        ("positions", particles.positions()),
+        ("velocities", particles.velocities()),
+        ("spins", particles.spins()),
+        ("forces", particles.forces()),
+        ("torques", particles.torques()),
+    ];
+    let mut bits: Bits = columns
+        .into_iter()
+        .map(|(name, column)| (name.to_owned(), bits_of(rows.iter().map(|&row| column[row]))))
+        .collect();
+    for (place, wall) in simulation.walls().iter().enumerate() {
+        let motion = [wall.point, simulation.wall_velocity(place), simulation.wall_force(place)];
+        bits.push((format!("wall {place}"), bits_of(motion.into_iter())));
+    }
+    bits.push(("rows".to_owned(), rows.into_iter().map(|row| row as u64).collect()));
+    let mut contacts = Vec::new();
+    simulation.for_each_contact(&mut |contact| {
+        contacts.push(u64::from(contact.first));
+        contacts.push(match contact.second {
+            ContactPartner::Particle(id) => u64::from(id),
+            ContactPartner::Wall(place) => !(place as u64),
+        });
+        contacts.extend([contact.overlap, contact.normal_force, contact.memory].map(f64::to_bits));
+        contacts.extend(bits_of([contact.force].into_iter()));
+    });
+    bits.push(("contacts".to_owned(), contacts));
+    bits.push((
+        "time, steps, lists".to_owned(),
+        vec![
+            simulation.time().to_bits(),
+            simulation.steps(),
+            simulation.rebuilds(),
+            simulation.candidates() as u64,
+        ],
+    ));
+    bits
+}
+
+/// The ledger, account by account.
+fn accounts(simulation: &mut Simulation) -> Bits {
+    let accounts = simulation.ledger().accounts();
+    accounts.into_iter().map(|(name, energy)| (name.to_string(), vec![energy.to_bits()])).collect()
+}
+
+fn assert_same(way: Way, found: &Bits, expected: &Bits) {
+    assert_eq!(found.len(), expected.len());
+    for ((name, bits), (_, plainest)) in found.iter().zip(expected) {
+        let differing = bits.iter().zip(plainest).filter(|(one, other)| one != other).count();
+        let all = plainest.len();
+        assert!(
+            bits.len() == all && differing == 0,
+            "{way:?}: {name}: {differing} of {all} numbers differ from those of the plainest way"
+        );
+    }
+}
+
+/// Advances the system in every way that is offered, and answers with what the plainest came to.
+fn assert_the_same_bits_in_every_way(setup: &Setup, steps: u64) -> Simulation {
+    let mut plainest = Way::plainest().advance(setup, steps);
+    let (state_expected, accounts_expected) = (state(&plainest), accounts(&mut plainest));
+    let mut ways = Vec::new();
+    for (number, &instructions) in InstructionSet::available().iter().enumerate() {
+        // Every number of threads with every instruction set, alternately with and without the ledger.
+        for (place, threads) in [1, 2, 3, 8].into_iter().enumerate() {
+            ways.push(Way { threads, instructions, ledger: (number + place) % 2 == 0, at_a_time: steps });
+        }
+        ways.push(Way { instructions, at_a_time: 7, ..Way::plainest() });
+    }
+    ways.push(Way { ledger: false, ..Way::plainest() });
+    for way in ways {
+        let mut simulation = way.advance(setup, steps);
+        assert_same(way, &state(&simulation), &state_expected);
+        if way.ledger {
+            assert_same(way, &accounts(&mut simulation), &accounts_expected);
+        }
+    }
+    assert!(plainest.rebuilds() > 2, "only {} new lists of candidates", plainest.rebuilds());
+    plainest
+}
+
+/// Contacts that press, and those that only pull.
+fn touching(simulation: &Simulation) -> [usize; 2] {
+    let mut counts = [0; 2];
+    simulation.for_each_contact(&mut |contact| counts[usize::from(contact.overlap <= 0.0)] += 1);
+    counts
+}
+
+#[test]
+fn linear_contacts_that_slide_have_the_same_bits_however_they_are_computed() {
+    let mut model = ContactModel::frictionless(Linear::new(1000.0, 1e-2));
+    model.composition.sliding = Some(slider(300.0, 1e-4, 0.5));
+    let edge = 22.0 * RADIUS;
+    let mut setup = implosion(700, edge, 5, model);
+    setup.walls = cube_of_walls(edge);
+    // What pushes back on the wall that a pressure drives moves it: its force comes back in all others.
+    let lid = setup.walls.len() - 1;
+    let pressure = PressureRamp { from: 0.0, to: 200.0, duration: 1e-3 };
+    setup.walls[lid].motion = WallMotion::Servo(Servo { pressure, mass: 1e-5, damping: 1e-2 });
+    setup.walls[lid].area = FaceArea::Given(edge * edge);
+    let mut simulation = assert_the_same_bits_in_every_way(&setup, 1200);
+    let [pressing, _] = touching(&simulation);
+    assert!(pressing > 150, "only {pressing} contacts: too little to disagree about");
+    assert!(simulation.wall_force(lid).norm() > 0.0);
+    assert!(simulation.ledger().dissipated_sliding > 0.0);
+}
+
+#[test]
+fn viscous_luding_contacts_that_slide_roll_twist_and_attract_have_the_same_bits_however_they_are_computed() {
+    let mut model = viscous_luding();
+    model.composition.noncontact = NonContact::JumpIn(JumpIn { f_a: 3e-5, kc_a: 0.3 });
+    let edge = 20.0 * RADIUS;
+    let mut setup = implosion(500, edge, 6, model);
+    setup.walls = cube_of_walls(edge);
+    setup.background = Background { drag: 1e-7, ..gravity(9.81) };
+    let mut simulation = assert_the_same_bits_in_every_way(&setup, 700);
+    let [pressing, pulling] = touching(&simulation);
+    assert!(pressing > 300 && pulling > 10, "{pressing} pressing, {pulling} pulling");
+    let ledger = simulation.ledger();
+    for (name, energy) in ledger.accounts().into_iter().filter(|(name, _)| name.contains("dissipated")) {
+        assert!(energy > 0.0, "{name}");
+    }
+}
+
+/// Radii from 0.15 to 1.5 `RADIUS`, most of them small, in a box that is periodic along x, where
+/// everything flies along, and closed by walls elsewhere.
+fn wide_distribution() -> Setup {
+    let edge = 9.0 * RADIUS;
+    let (count, upper) = (1800, vector(edge, edge, edge));
+    let radii: Vec<f64> = (0..count)
+        .map(|place| {
+            let rank = f64::from(place) / f64::from(count - 1);
+            1.5 * RADIUS * 10.0_f64.powf(-rank.powf(0.25))
+        })
+        .collect();
+    let domain = Domain::periodic(Vector3::zero(), upper, [true, false, false]);
+    let mut random = random_stream(7);
+    let region = Region { lower: Vector3::zero(), upper };
+    let places = random_places(&radii, &region, &domain, &[], &mut random).unwrap();
+    let middle = upper * 0.5;
+    let falling = |(place, radius): (Vector3, f64)| {
+        let mut inwards = (middle - place) * (2.0 / edge);
+        inwards.x = 0.7;
+        let mut particle = sphere(place, inwards + gaussian_vector(&mut random) * 0.2, radius);
+        particle.spin = gaussian_vector(&mut random) * 200.0;
+        particle
+    };
+    let particles = places.into_iter().zip(radii).map(falling).collect();
+    let walls = cube_of_walls(edge).split_off(2);
+    Setup { domain, walls, ..setup(particles, viscous_luding()) }
+}
+
+#[test]
+fn small_and_large_particles_have_the_same_bits_however_they_are_computed() {
+    let setup = wide_distribution();
+    let simulation = assert_the_same_bits_in_every_way(&setup, 800);
+    let mut across = 0;
+    let mut pressing = 0;
+    let particles = simulation.particles();
+    let rows = particles.rows_by_id();
+    simulation.for_each_contact(&mut |contact| {
+        pressing += 1;
+        if let ContactPartner::Particle(second) = contact.second {
+            let apart = contact.centre_second - particles.positions()[rows[second as usize]];
+            across += usize::from(apart.norm() > RADIUS);
+        }
+    });
+    assert!(pressing > 200, "only {pressing} contacts: too little to disagree about");
+    assert!(across > 5, "only {across} contacts across the periodic boundary");
+}
+
+#[test]
+fn another_order_of_sums_would_be_seen_in_the_bits() {
+    // The control of this file: with another skin the same contacts stand in other blocks, and nothing
+    // but the order changes in which their loads are summed.
+    let setup = wide_distribution();
+    let way = Way::plainest();
+    let usual = state(&way.advance(&setup, 800));
+    let mut simulation = start(setup, STEPS_PER_CONTACT);
+    simulation.set_instructions(way.instructions);
+    simulation.set_skin(0.1 * RADIUS).unwrap();
+    simulation.advance(800).unwrap();
+    let ((name, one), (_, other)) = (&state(&simulation)[0], &usual[0]);
+    assert_eq!(name, "positions");
+    let differing = one.iter().zip(other).filter(|(one, other)| one != other).count();
+    assert!(differing > 50, "only {differing} of {} numbers differ", one.len());
+}
