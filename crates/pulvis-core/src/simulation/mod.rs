@@ -89,6 +89,8 @@ struct Outcome {
 /// renewed less often but hold more candidates that do not touch; a gas has few.
 const SKIN_OF_PACKING: f64 = 0.3;
 const SKIN_OF_GAS: f64 = 0.8;
+/// The skin where periods leave no room for a better one.
+const SKIN_OF_SHORT_PERIODS: f64 = 0.2;
 /// Candidates per particle below which the one is taken for a gas, and above which it is for a packing.
 const GAS: f64 = 1.0;
 const PACKING: f64 = 3.0;
@@ -136,6 +138,9 @@ impl Simulation {
         let count = simulation.particles.len().max(1) as f64;
         simulation.mean_radius = simulation.particles.radius.iter().sum::<f64>() / count;
         simulation.skin.thickness = SKIN_OF_PACKING * simulation.mean_radius;
+        if simulation.check_periods().is_err() {
+            simulation.skin.thickness = SKIN_OF_SHORT_PERIODS * simulation.mean_radius;
+        }
         simulation.check_periods()?;
         for (wall, state) in simulation.walls.iter().zip(&mut simulation.wall_states) {
             state.start(&wall.motion);

@@ -76,6 +76,16 @@ impl<'a> StageWatch<'a> {
         Some(((simulation.time() - self.start_time) / duration).min(1.0))
     }
 
+    /// Steps before which the stage certainly does not end, and no look is due.
+    pub(super) fn steps_left(&self, simulation: &Simulation) -> u64 {
+        if self.rules.strain.is_some() {
+            return 1;
+        }
+        let look = LOOK_EVERY - (simulation.steps() - self.start_step) % LOOK_EVERY;
+        let end = self.rules.time.or_else(|| cycles_duration(simulation));
+        end.map_or(look, |end| look.min(whole_steps(self.start_time + end, simulation)))
+    }
+
     /// Whether the stage ends now.
     pub(super) fn ending(&mut self, simulation: &mut Simulation) -> Option<Ending> {
         // Half a step of tolerance: sums of time steps are not exact.
@@ -131,6 +141,12 @@ impl<'a> StageWatch<'a> {
         };
         before.is_some_and(|before| side(stress) && !side(before))
     }
+}
+
+/// Steps that end before `time` [s] for certain, with two to spare for rounding.
+pub(super) fn whole_steps(time: f64, simulation: &Simulation) -> u64 {
+    // A cast of a negative number is zero.
+    ((time - simulation.time()) / simulation.time_step() - 2.0) as u64
 }
 
 /// Duration of the longest cosine motion that is under way [s].
