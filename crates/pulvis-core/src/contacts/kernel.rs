@@ -117,7 +117,6 @@ impl Loop<'_> {
             moving.velocity_mid.prefetch(row);
             moving.velocity.prefetch(row);
             moving.spin_mid.prefetch(row);
-            moving.spin.prefetch(row);
         }
         ahead.rows.start = end;
         let (near, later) = ahead.halo.split_at(counts[1].min(ahead.halo.len()));
