@@ -1,0 +1,181 @@
+//! Blocks on their way through the loops: gathered, computed, added up.
+
+use std::mem::MaybeUninit;
+
+use pulvis_contact::{Composition, ContactEnergies, NormalLaw, Pair, PairMotion, resistance};
+use pulvis_math::{Octet, Quad, Row, Vector3};
+
+use super::super::block::WIDTH;
+use super::super::layout::{Lane, Layout};
+use crate::particles::Load;
+use crate::shared::Shared;
+
+/// Blocks that are gathered before any of them is computed, and computed before any of them is added
+/// up. A block takes more instructions than a processor looks ahead; short loops one after the other
+/// let it work on several blocks at a time, and need fewer registers.
+pub(super) const BATCH: usize = 4;
+
+/// A block that has been gathered.
+#[derive(Clone, Copy)]
+pub(super) struct Gathered<R> {
+    pub(super) block: usize,
+    pub(super) pair: Pair<R>,
+    pub(super) motion: PairMotion<R>,
+}
+
+/// A block that has been computed.
+#[derive(Clone, Copy)]
+struct Answered<R> {
+    force: Vector3<R>,
+    torque_i: Vector3<R>,
+    torque_j: Vector3<R>,
+}
+
+/// What the blocks of a group are computed with.
+pub(super) struct Response<N> {
+    pub(super) law: N,
+    pub(super) composition: Composition,
+    pub(super) layout: Layout,
+    /// The step that led to the present positions [s].
+    pub(super) time_step: f64,
+}
+
+/// Adds eight rows to the sums, one after the other: several lanes may have the same place.
+macro_rules! add_rows {
+    ($sums:expr, $places:expr, $part:ident, $sum:ident, $rows:expr) => {
+        for lane in 0..WIDTH {
+            // SAFETY: places lie within the sums, as the caller vouches.
+            let slot = unsafe { &mut $sums.get_mut_at_number($places[lane]).$part };
+            R::Row::load(slot).$sum($rows[lane]).store(slot);
+        }
+    };
+}
+
+/// Some blocks.
+pub(super) struct Batch<R> {
+    gathered: [MaybeUninit<Gathered<R>>; BATCH],
+    answered: [MaybeUninit<Answered<R>>; BATCH],
+    count: usize,
+}
+
+impl<R: Octet> Batch<R> {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self {
+            gathered: [const { MaybeUninit::uninit() }; BATCH],
+            answered: [const { MaybeUninit::uninit() }; BATCH],
+            count: 0,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn is_full(&self) -> bool {
+        self.count == BATCH
+    }
+
+    #[inline(always)]
+    pub(super) fn push(&mut self, gathered: Gathered<R>) {
+        self.gathered[self.count].write(gathered);
+        self.count += 1;
+    }
+
+    /// Computes all blocks, updates their `memory`, and adds their energies to `energies` if the ledger is
+    /// kept. Answers with the sum of the forces on the first bodies [N].
+    #[inline(always)]
+    pub(super) fn respond<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(
+        &mut self,
+        response: &Response<N>,
+        memory: &mut [Lane],
+        energies: &mut ContactEnergies<R>,
+    ) -> Vector3<R> {
+        let columns = response.layout.columns();
+        let mut total = Vector3::zero();
+        for place in 0..self.count {
+            // SAFETY: the first `count` have been gathered.
+            let gathered = unsafe { self.gathered[place].assume_init_ref() };
+            let memory = &mut memory[gathered.block * columns..(gathered.block + 1) * columns];
+            let mut before = response.layout.load::<R, N::Memory<R>>(memory);
+            let answer = response.composition.respond::<R, N, RESISTANCE>(
+                &response.law,
+                &gathered.pair,
+                &gathered.motion,
+                response.time_step,
+                &mut before,
+            );
+            response.layout.store(&before, memory);
+            self.answered[place].write(Answered {
+                force: answer.force,
+                torque_i: answer.torque_i,
+                torque_j: answer.torque_j,
+            });
+            total += answer.force;
+            if LEDGER {
+                *energies += answer.energies;
+            }
+        }
+        total
+    }
+
+    /// Adds the loads to `sums`, at the places `first` and, of pairs, `second` of each block; the batch is
+    /// empty afterwards.
+    ///
+    /// # Safety
+    /// The places lie within the sums.
+    #[inline(always)]
+    pub(super) unsafe fn add_up<const RESISTANCE: u8, const PAIRS: bool>(
+        &mut self,
+        first: &[[u32; WIDTH]],
+        second: &[[u32; WIDTH]],
+        sums: Shared<'_, Load>,
+    ) {
+        for place in 0..self.count {
+            // SAFETY: the first `count` have been gathered and computed.
+            let (block, answer) = unsafe {
+                (self.gathered[place].assume_init_ref().block, self.answered[place].assume_init_ref())
+            };
+            let first = &first[block];
+            let force = rows_of::<R>(answer.force);
+            add_rows!(sums, first, force, plus, force);
+            if PAIRS {
+                add_rows!(sums, &second[block], force, minus, force);
+            }
+            if RESISTANCE != resistance::NONE {
+                let torque = rows_of::<R>(answer.torque_i);
+                add_rows!(sums, first, torque, plus, torque);
+                if PAIRS {
+                    let torque = rows_of::<R>(answer.torque_j);
+                    add_rows!(sums, &second[block], torque, plus, torque);
+                }
+            }
+        }
+        self.count = 0;
+    }
+}
+
+/// The columns of eight rows.
+///
+/// # Safety
+/// The rows lie within the column, and nobody writes them meanwhile.
+#[inline(always)]
+pub(super) unsafe fn gather<R: Octet>(column: Shared<'_, Quad>, rows: &[u32; WIDTH]) -> (Vector3<R>, R) {
+    // SAFETY: the caller's.
+    let [x, y, z, scalar] = unsafe {
+        R::columns([
+            R::Row::load(column.get_at_number(rows[0])),
+            R::Row::load(column.get_at_number(rows[1])),
+            R::Row::load(column.get_at_number(rows[2])),
+            R::Row::load(column.get_at_number(rows[3])),
+            R::Row::load(column.get_at_number(rows[4])),
+            R::Row::load(column.get_at_number(rows[5])),
+            R::Row::load(column.get_at_number(rows[6])),
+            R::Row::load(column.get_at_number(rows[7])),
+        ])
+    };
+    (Vector3::new(x, y, z), scalar)
+}
+
+/// The rows of a vector; their scalars are zero.
+#[inline(always)]
+fn rows_of<R: Octet>(vector: Vector3<R>) -> [R::Row; WIDTH] {
+    R::rows([vector.x, vector.y, vector.z, R::zero()])
+}

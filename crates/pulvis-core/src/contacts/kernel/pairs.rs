@@ -1,0 +1,127 @@
+//! Contacts between particles.
+
+use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance};
+use pulvis_math::{Kernel, Mask, Octet, Vector3};
+
+use super::super::block::filled_lanes;
+use super::batch::{BATCH, Batch, Gathered, Response, gather};
+use super::{ContactTotals, Loop};
+use crate::shared::Shared;
+
+/// The loop over a group, with the type of its law.
+pub(super) struct PairSweep<'a>(pub(super) Loop<'a>);
+
+impl NormalLawVisitor for PairSweep<'_> {
+    type Output = ();
+    fn visit<N: NormalLaw>(self, law: N) {
+        let Self(contacts) = self;
+        let (level, advance) = (contacts.group.model.composition.resistance_level(), contacts.advance);
+        let set = advance.instructions;
+        match (level, advance.ledger) {
+            (resistance::NONE, true) => set.run(PairLoop::<N, { resistance::NONE }, true> { law, contacts }),
+            (resistance::NONE, false) => {
+                set.run(PairLoop::<N, { resistance::NONE }, false> { law, contacts });
+            }
+            (resistance::SLIDING, true) => {
+                set.run(PairLoop::<N, { resistance::SLIDING }, true> { law, contacts });
+            }
+            (resistance::SLIDING, false) => {
+                set.run(PairLoop::<N, { resistance::SLIDING }, false> { law, contacts });
+            }
+            (_, true) => set.run(PairLoop::<N, { resistance::ALL }, true> { law, contacts }),
+            (_, false) => set.run(PairLoop::<N, { resistance::ALL }, false> { law, contacts }),
+        }
+    }
+}
+
+struct PairLoop<'a, N, const RESISTANCE: u8, const LEDGER: bool> {
+    law: N,
+    contacts: Loop<'a>,
+}
+
+impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop<'_, N, RESISTANCE, LEDGER> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Octet>(self) {
+        let Self { law, contacts: Loop { group, sums, moving, advance, mut ahead } } = self;
+        let sums = Shared::new(sums);
+        // By value: not to be read anew after every store.
+        let (composition, advance) = (group.model.composition, *advance);
+        let turning_dashpots = composition.has_resistance_dashpot();
+        let reach = R::splat(-composition.noncontact.reach());
+        let response = Response { law, composition, layout: group.layout, time_step: advance.time_step };
+        let mut energies = ContactEnergies::<R>::default();
+        let mut batch = Batch::<R>::new();
+        let blocks = group.first.len();
+        let mut next = 0;
+        let a_batch = |rows: usize| (rows * BATCH).div_ceil(blocks).next_multiple_of(2);
+        let counts = [a_batch(ahead.rows.len()), a_batch(ahead.halo.len())];
+        while next < blocks {
+            Loop::look_ahead(moving, &mut ahead, counts);
+            while next < blocks && !batch.is_full() {
+                let block = next;
+                next += 1;
+                if group.gap[block] > advance.closed && !group.live[block] {
+                    continue;
+                }
+                let (first, second) = (&group.first[block], &group.second[block]);
+                // SAFETY (here and below): rows lie within the columns, as the caller of `sweep` vouches.
+                let (centre_i, radius_i) = unsafe { gather::<R>(moving.place, first) };
+                let (centre_j, radius_j) = unsafe { gather::<R>(moving.place, second) };
+                let separation = advance.images.nearest(centre_i - centre_j);
+                let distance = separation.norm();
+                let overlap = radius_i + radius_j - distance;
+                // Idle lanes are out of any reach.
+                let filled = filled_lanes::<R>(group.filled(block));
+                let overlap = R::select(filled, overlap, reach + reach - radius_i);
+                let acts = overlap.gt(reach).any();
+                if !acts && !group.live[block] {
+                    continue;
+                }
+                group.live[block] = acts;
+                let inverse_distance = R::one() / distance;
+                let (mid_i, inverse_mass_i) = unsafe { gather::<R>(moving.velocity_mid, first) };
+                let (mid_j, inverse_mass_j) = unsafe { gather::<R>(moving.velocity_mid, second) };
+                let (velocity_i, inverse_radius_i) = unsafe { gather::<R>(moving.velocity, first) };
+                let (velocity_j, inverse_radius_j) = unsafe { gather::<R>(moving.velocity, second) };
+                let (mut spin_i_mid, mut spin_j_mid) = (Vector3::zero(), Vector3::zero());
+                let (mut spin_i, mut spin_j) = (Vector3::zero(), Vector3::zero());
+                if RESISTANCE != resistance::NONE {
+                    spin_i_mid = unsafe { gather::<R>(moving.spin_mid, first) }.0;
+                    spin_j_mid = unsafe { gather::<R>(moving.spin_mid, second) }.0;
+                    if turning_dashpots {
+                        spin_i = unsafe { gather::<R>(moving.spin, first) }.0;
+                        spin_j = unsafe { gather::<R>(moving.spin, second) }.0;
+                    }
+                }
+                batch.push(Gathered {
+                    block,
+                    pair: Pair::spheres_from_inverses(
+                        inverse_mass_i,
+                        inverse_mass_j,
+                        inverse_radius_i,
+                        inverse_radius_j,
+                    ),
+                    motion: PairMotion {
+                        normal: separation * inverse_distance,
+                        overlap,
+                        inverse_distance,
+                        radius_i,
+                        radius_j,
+                        velocity: velocity_i - velocity_j,
+                        velocity_mid: mid_i - mid_j,
+                        spin_i,
+                        spin_j,
+                        spin_i_mid,
+                        spin_j_mid,
+                    },
+                });
+            }
+            batch.respond::<N, RESISTANCE, LEDGER>(&response, &mut group.memory, &mut energies);
+            // SAFETY: as the caller of `sweep` vouches.
+            unsafe { batch.add_up::<RESISTANCE, true>(&group.first_sum, &group.second_sum, sums) };
+        }
+        group.totals = ContactTotals { energies: energies.to_lanes(), force: Vector3::zero() };
+    }
+}
