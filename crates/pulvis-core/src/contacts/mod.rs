@@ -14,6 +14,6 @@ pub(crate) use block::Partner;
 pub use interactions::Interactions;
 pub(crate) use kernel::{Advance, Moving, WallMotionNow};
 pub(crate) use rebuild::MemoryStore;
-pub(crate) use table::{ContactTable, Surroundings};
+pub(crate) use table::{ContactTable, Surroundings, Sweep};
 pub use view::{ContactPartner, ContactView};
 pub(crate) use view::{Views, view_contacts};

@@ -70,6 +70,14 @@ impl MemoryStore {
         store.unsorted = unsorted;
     }
 
+    /// Memory [byte].
+    pub(crate) fn memory_size(&self) -> usize {
+        self.starts.capacity() * size_of::<u32>()
+            + self.entries.capacity() * size_of::<Entry>()
+            + self.records.capacity() * size_of::<f64>()
+            + self.unsorted.capacity() * size_of::<(u32, Entry)>()
+    }
+
     /// Forgets everything, but keeps the room.
     pub(crate) fn forget(&mut self) {
         self.starts.clear();

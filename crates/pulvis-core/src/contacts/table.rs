@@ -8,7 +8,7 @@ use pulvis_math::{InstructionSet, Lanes, Vector3};
 
 use super::Interactions;
 use super::block::{ContactGroup, Partner};
-use super::kernel::{Advance, Ahead, Moving, WallMotionNow, sweep};
+use super::kernel::{self, Advance, Ahead, Moving, WallMotionNow};
 use super::piece::{Incoming, Piece, cut};
 use super::rebuild::MemoryStore;
 use crate::domain::Images;
@@ -86,6 +86,18 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) instructions: InstructionSet,
 }
 
+/// What a sweep over all contacts works on.
+#[derive(Clone, Copy)]
+pub(crate) struct Sweep<'a> {
+    /// Room for loads that are not complete at once: for all rows, and for all halos behind them.
+    pub(crate) loads: Shared<'a, Load>,
+    pub(crate) moving: Moving<'a>,
+    pub(crate) walls: &'a [WallMotionNow],
+    pub(crate) advance: &'a Advance,
+    /// Whether `loads` are to hold those on all rows at the end, as they were finished.
+    pub(crate) keep: bool,
+}
+
 impl ContactTable {
     /// All groups, piece by piece, in each piece pairs of particles first.
     pub(crate) fn groups(&self) -> impl Iterator<Item = &ContactGroup> {
@@ -148,18 +160,13 @@ impl ContactTable {
 
     /// Computes the loads of all contacts. When those on the rows of a piece are complete, and nobody
     /// uses these rows any more, `finish` is called with the number of the piece, its rows and the loads.
-    /// `loads` are room for what is not complete at once: for all rows, and for all halos behind them.
-    /// With `keep` the loads on all rows, as `finish` leaves them, are there at the end.
     pub(crate) fn sweep(
         &mut self,
-        loads: Shared<'_, Load>,
-        moving: Moving<'_>,
-        walls: &[WallMotionNow],
-        advance: &Advance,
+        sweep: &Sweep<'_>,
         team: &Team,
-        keep: bool,
         finish: impl Fn(usize, Range<usize>, &mut [Load]) + Sync,
     ) {
+        let Sweep { loads, moving, walls, advance, keep } = *sweep;
         let count = self.pieces.len();
         self.sums.resize_with(team.threads(), Vec::new);
         let (pieces, scratch) = (Shared::new(&mut self.pieces), Shared::new(&mut self.sums));
@@ -193,7 +200,7 @@ impl ContactTable {
                 };
                 // SAFETY: rows and places were listed for these columns and sums. `finish`, which writes
                 // rows, is not called for rows of this piece or its halo before it has counted down.
-                unsafe { sweep(group, sums, moving, walls, advance, ahead) };
+                unsafe { kernel::sweep(group, sums, moving, walls, advance, ahead) };
                 clock.lap(match group.partner {
                     Partner::Particle => &mut phases.pairs,
                     Partner::Wall(_) => &mut phases.walls,
@@ -252,7 +259,8 @@ impl ContactTable {
 
     /// Memory of the whole table [byte].
     pub(crate) fn memory_size(&self) -> usize {
-        let halos = 2 * size_of_val(&self.halos[..]);
+        let sums: usize = self.sums.iter().map(|sums| size_of_val(&sums[..])).sum();
+        let halos = 2 * size_of_val(&self.halos[..]) + sums;
         self.groups().map(ContactGroup::memory_size).sum::<usize>() + halos
     }
 }

@@ -1,0 +1,186 @@
+//! Steps in time.
+
+use pulvis_math::Vector3;
+
+use super::{Outcome, Simulation, StepError};
+use crate::contacts::{Advance, Sweep};
+use crate::integrator::{Columns, Kick, KickAndDrift, Step};
+use crate::neighbours::Outdated;
+use crate::phases::Stopwatch;
+use crate::shared::Shared;
+use crate::walls::Wall;
+
+impl Simulation {
+    /// One time step.
+    ///
+    /// # Errors
+    /// See [`advance`](Self::advance).
+    pub fn step(&mut self) -> Result<(), StepError> {
+        self.advance(1)
+    }
+
+    /// Time steps: kick and drift, walls, neighbours, forces, kick, ledger. The same as so many single
+    /// [steps](Self::step), but faster: the second kick of a step and the first one of the next are
+    /// made in one go, while the particles are in the cache.
+    ///
+    /// # Errors
+    /// A position is no number any more.
+    pub fn advance(&mut self, steps: u64) -> Result<(), StepError> {
+        if steps == 0 {
+            return Ok(());
+        }
+        let mut farthest = self.kick_and_drift();
+        for left in (0..steps).rev() {
+            self.move_walls();
+            self.step += 1;
+            let closed = self.renew_if_outdated(farthest)?;
+            let background_power;
+            (background_power, farthest) = self.forces_and_kick(closed, false, left > 0);
+            self.finish_walls();
+            self.time += self.time_step;
+            self.running.take_in(self.contacts.energies(), background_power, self.time_step);
+        }
+        Ok(())
+    }
+
+    /// First half kick and drift. Answers with the largest square of the distance of any particle from
+    /// where it was listed [m²].
+    fn kick_and_drift(&mut self) -> f64 {
+        let pieces = self.contacts.pieces();
+        let (instructions, step) = (self.instructions, self.step_of_rows());
+        let columns = Columns::of(&mut self.particles, self.skin.listed());
+        let timed = self.phases.is_some();
+        self.team.for_each(&mut self.outcomes, |number, outcome| {
+            let mut clock = Stopwatch::start(timed);
+            let rows = pieces[number].rows.clone();
+            // SAFETY: pieces have different rows.
+            outcome.farthest = unsafe {
+                let loads = columns.loads.range_mut(rows.clone());
+                instructions.run(KickAndDrift::new(columns, rows, loads, step))
+            };
+            clock.lap(&mut outcome.seconds);
+        });
+        farthest(&self.outcomes)
+    }
+
+    fn step_of_rows(&self) -> Step {
+        let turning = self.interactions.models().any(|model| model.composition.has_resistance_dashpot());
+        Step { time_step: self.time_step, predicts_spins: turning || self.background.has_drag() }
+    }
+
+    /// Lists the candidates anew if particles have moved too far, the square of the longest way being
+    /// `farthest` [m²]. Answers by how much a gap can have closed since they were listed [m].
+    fn renew_if_outdated(&mut self, farthest: f64) -> Result<f64, StepError> {
+        let closed = self.skin.closed(farthest, self.walls.iter().map(Wall::offset));
+        match self.skin.outdated(closed, &self.particles.place) {
+            Outdated::No => Ok(closed),
+            Outdated::Yes => {
+                self.renew_candidates();
+                Ok(0.0)
+            }
+            Outdated::Lost(row) => {
+                let id = self.particles.id[row];
+                Err(StepError::Lost { id, step: self.step, time: self.time })
+            }
+        }
+    }
+
+    fn move_walls(&mut self) {
+        for place in 0..self.walls.len() {
+            if !self.walls[place].present {
+                continue;
+            }
+            let area = self.wall_area(place);
+            let since = self.time - self.wall_starts[place];
+            self.wall_states[place].advance(&mut self.walls[place], area, since, self.time_step);
+        }
+    }
+
+    fn finish_walls(&mut self) {
+        for place in 0..self.walls.len() {
+            if !self.walls[place].present {
+                continue;
+            }
+            let area = self.wall_area(place);
+            let since = self.time - self.wall_starts[place];
+            let force = -self.on_particles[place];
+            self.wall_states[place].finish(&self.walls[place], force, area, since, self.time_step);
+        }
+    }
+
+    /// Forces and torques of all contacts and of the background, and the second half kick; with
+    /// `onwards` also the first half kick and the drift of the next step. `closed` is by how much a gap
+    /// can have closed since the candidates were listed [m]; `at_rest` no time has passed.
+    ///
+    /// Answers with the drag's power [W] and the largest square of the distance of any particle from
+    /// where it was listed [m²]; each wall's force on the particles is left in its place.
+    fn forces_and_kick(&mut self, closed: f64, at_rest: bool, onwards: bool) -> (f64, f64) {
+        self.walls_now.clear();
+        for (wall, state) in self.walls.iter().zip(&self.wall_states) {
+            let motion = if at_rest { state.motion_at_rest(wall) } else { state.motion_now(wall) };
+            self.walls_now.push(motion);
+        }
+        let time_step = if at_rest { 0.0 } else { self.time_step };
+        let advance = Advance {
+            closed,
+            time_step,
+            timed: self.phases.is_some(),
+            images: self.domain.images(),
+            ledger: self.accounting,
+            instructions: self.instructions,
+        };
+        let step = self.step_of_rows();
+        let columns = Columns::of(&mut self.particles, self.skin.listed());
+        let (instructions, background) = (self.instructions, &self.background);
+        let outcomes = Shared::new(&mut self.outcomes);
+        let sweep = Sweep {
+            loads: columns.loads,
+            moving: columns.moving(),
+            walls: &self.walls_now,
+            advance: &advance,
+            keep: !onwards,
+        };
+        self.contacts.sweep(&sweep, &self.team, |number, rows, loads| {
+            // SAFETY: each piece is finished once, and nobody reads its rows any more.
+            unsafe {
+                let outcome = outcomes.get_mut(number);
+                let mut clock = Stopwatch::start(advance.timed);
+                let half = 0.5 * time_step;
+                let kick = Kick::new(columns, rows.clone(), &mut *loads, background, half);
+                outcome.power = instructions.run(kick);
+                if onwards {
+                    let drift = KickAndDrift::new(columns, rows, loads, step);
+                    outcome.farthest = instructions.run(drift);
+                }
+                clock.lap(&mut outcome.seconds);
+            }
+        });
+        self.on_particles.fill(Vector3::zero());
+        self.contacts.add_wall_forces(&mut self.on_particles);
+        let power = self.outcomes.iter().map(|outcome| outcome.power).sum();
+        (power, farthest(&self.outcomes))
+    }
+
+    /// Forces of the present state, without a step having led here; switches nothing in memory but
+    /// what the laws themselves would.
+    pub(super) fn evaluate_at_rest(&mut self) {
+        let particles = &mut self.particles;
+        for (predicted, now) in particles.velocity_predicted.iter_mut().zip(&particles.velocity) {
+            predicted.vector = now.vector;
+        }
+        for (predicted, now) in particles.spin_predicted.iter_mut().zip(&particles.spin) {
+            predicted.vector = now.vector;
+        }
+        // No block is passed over: whatever was switched may act at once.
+        let (background_power, _) = self.forces_and_kick(f64::INFINITY, true, false);
+        self.running.take_in(self.contacts.energies(), background_power, 0.0);
+        for (state, &force) in self.wall_states.iter_mut().zip(&self.on_particles) {
+            state.force = -force;
+        }
+    }
+}
+
+/// The largest of the pieces' squares of distances [m²].
+fn farthest(outcomes: &[Outcome]) -> f64 {
+    outcomes.iter().map(|outcome| outcome.farthest).fold(0.0, f64::max)
+}
