@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times pulvis-bench and the packages lammps and liggghts on the same workloads, in turn.
+"""Times pulvis-bench and the packages lammps and liggghts on the same workloads, in turn, with one thread and rank and with two.
 usage: time_turns.py PASSES OUT.csv [WORKLOAD-PREFIX]; from the folder with the tables and data files."""
 import os, re, subprocess, sys, time, csv, statistics
 os.environ["OMP_NUM_THREADS"] = "1"
@@ -8,19 +8,28 @@ def bed(data): return " -log none -var gz 9.81 -var gamma 4000 -var bz f -var sk
 gas = " -log none -var gz 0.0 -var gamma 800 -var bz p -var skin 0.2e-3 -var data gas100k.data"
 LMP = "lmp -in lammps_bench.in -var pair old -var n %d"
 LIG = "liggghts -in liggghts.in -var tan history -var model %d -var wall %d -var n %d"
-J = [
-  ("bed32k", "lammps", LMP % 400 + bed("bed32k.data")),
-  ("bed32k", "pulvis", OWN + " bed --table bed32k.txt --steps 400 --threads 1 --law linear"),
-  ("bed32k", "pulvis-peer-conventions", OWN + " bed --table bed32k.txt --steps 400 --threads 1 --law linear --conventions peer"),
-  ("hysteretic32k", "liggghts", LIG % (2, 2, 250) + bed("bed32k.data")),
-  ("hysteretic32k", "pulvis luding", OWN + " bed --table bed32k.txt --steps 250 --threads 1 --law luding"),
-  ("hysteretic32k", "pulvis luding-full", OWN + " bed --table bed32k.txt --steps 250 --threads 1 --law luding-full"),
-  ("gas100k", "lammps", LMP % 500 + gas),
-  ("gas100k", "pulvis", OWN + " gas --table gas100k.txt --steps 500 --threads 1"),
-  ("gas100k", "pulvis skin 0.2 mm", OWN + " gas --table gas100k.txt --steps 500 --threads 1 --skin 2e-4"),
-  ("bed256k", "lammps", LMP % 60 + bed("bed256k.data")),
-  ("bed256k", "pulvis", OWN + " bed --table bed256k.txt --steps 60 --threads 1 --law linear"),
-]
+RANKS = "mpirun --allow-run-as-root --bind-to core -np 2 "
+J = []
+for n, threads in (("", 1), (" x2", 2)):
+    own = OWN + " %s --threads " + str(threads)
+    ranks = RANKS if threads == 2 else ""
+    J += [
+        ("bed32k" + n, "lammps", ranks + LMP % 400 + bed("bed32k.data")),
+        ("bed32k" + n, "pulvis", own % "bed --table bed32k.txt --steps 400 --law linear"),
+        ("bed32k" + n, "pulvis, no ledger", own % "bed --table bed32k.txt --steps 400 --law linear --ledger off"),
+        ("hysteretic32k" + n, "liggghts", ranks + LIG % (2, 2, 250) + bed("bed32k.data")),
+        ("hysteretic32k" + n, "pulvis luding", own % "bed --table bed32k.txt --steps 250 --law luding"),
+        ("hysteretic32k" + n, "pulvis luding, no ledger", own % "bed --table bed32k.txt --steps 250 --law luding --ledger off"),
+        ("hysteretic32k" + n, "pulvis luding-full", own % "bed --table bed32k.txt --steps 250 --law luding-full"),
+        ("hysteretic32k" + n, "pulvis luding-full, no ledger", own % "bed --table bed32k.txt --steps 250 --law luding-full --ledger off"),
+        ("gas100k" + n, "lammps", ranks + LMP % 500 + gas),
+        ("gas100k" + n, "pulvis", own % "gas --table gas100k.txt --steps 500"),
+        ("bed256k" + n, "lammps", ranks + LMP % 60 + bed("bed256k.data")),
+        ("bed256k" + n, "pulvis", own % "bed --table bed256k.txt --steps 60 --law linear"),
+        ("bed256k" + n, "pulvis, no ledger", own % "bed --table bed256k.txt --steps 60 --law linear --ledger off"),
+        ("tablet" + n, "216", own % "tablet --particles 216 --steps 40000"),
+        ("tablet" + n, "1728", own % "tablet --particles 1728 --steps 8000"),
+    ]
 only = sys.argv[3] if len(sys.argv) > 3 else ""
 J = [j for j in J if j[0].startswith(only)]
 HZ = os.sysconf("SC_CLK_TCK")
@@ -47,11 +56,11 @@ for p in range(int(sys.argv[1])):
         percpu = N * k / loop_cpu / 1e6 if loop_cpu else m * pw / cpu
         rows.append((p, w, n, m, percpu))
         out.writerow([p, w, n, N, k, "%.4f" % lw, "%.3f" % pw, "%.3f" % cpu, "%.2f" % ((busy() - s - cpu) / pw), "%.4f" % m, "%.4f" % percpu])
-        print("%-14s %-24s %.3f wall %.3f per CPU-s others %.2f" % (w, n, m, percpu, (busy() - s - cpu) / pw), flush=True)
+        print("%-17s %-30s %.3f wall %.3f per CPU-s others %.2f" % (w, n, m, percpu, (busy() - s - cpu) / pw), flush=True)
 print()
 ref = {}
 for w, n, _ in J: ref.setdefault(w, n)
 for w, n, _ in J:
     v = {r[0]: r for r in rows if r[1] == w and r[2] == n}; q = {r[0]: r for r in rows if r[1] == w and r[2] == ref[w]}
     x = [i for i in v if i in q]
-    if x: print("%-14s %-24s median %.2f wall %.2f per CPU-s ; median ratio to %s: %.2f wall %.2f per CPU-s" % (w, n, statistics.median(v[i][3] for i in x), statistics.median(v[i][4] for i in x), ref[w], statistics.median(v[i][3] / q[i][3] for i in x), statistics.median(v[i][4] / q[i][4] for i in x)))
+    if x: print("%-17s %-30s median %.2f wall %.2f per CPU-s ; median ratio to %s: %.2f wall %.2f per CPU-s" % (w, n, statistics.median(v[i][3] for i in x), statistics.median(v[i][4] for i in x), ref[w], statistics.median(v[i][3] / q[i][3] for i in x), statistics.median(v[i][4] / q[i][4] for i in x)))

@@ -9,6 +9,7 @@ use pulvis_input::collision::luding_pair;
 use pulvis_input::scenario::{Scenario, WallControl};
 
 use super::error::PrepareError;
+use super::run::sensible_threads;
 use super::packed::packed_memory;
 use super::setup::{Prepared, between, prepare};
 
@@ -171,6 +172,8 @@ fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForecast> {
 /// Wall-clock time of a step [s], from a copy of the simulation; a tenth of a second at the most.
 fn time_a_step(prepared: &Prepared) -> f64 {
     let mut trial = prepared.simulation.clone();
+    // As many threads as the run would take; one if the system cannot start them.
+    let _ = trial.set_threads(sensible_threads(trial.particles().len()));
     let began = Instant::now();
     let mut steps = 0_u32;
     while began.elapsed().as_secs_f64() < 0.1 && steps < 10_000 {

@@ -124,7 +124,7 @@ pub fn run(
 /// they work.
 const PARTICLES_PER_THREAD: usize = 500;
 
-fn sensible_threads(particles: usize) -> usize {
+pub(super) fn sensible_threads(particles: usize) -> usize {
     let processors = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     threads_for(particles, processors)
 }
