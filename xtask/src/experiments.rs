@@ -68,10 +68,16 @@ fn collide(pulvis: &Path, folder: &Path, scenario: &Path) -> Outcome {
     Ok(())
 }
 
+/// Restitutions below this are none.
+const ROUND_OFF: f64 = 1e-7;
+
 fn check_collisions(table: &Table, expected: &Collisions) -> Outcome<usize> {
     let (chi, restitution) = (table.numbers("chi")?, table.numbers("restitution")?);
     let theory = table.numbers("restitution_theory")?;
-    let near = |got: f64, value: f64| (got - value).abs() <= expected.tolerance * value.abs();
+    // At χ = 1/2, where the pair begins to stick, what is left is the root of round-off.
+    let near = |got: f64, value: f64| {
+        (got - value).abs() <= expected.tolerance * value.abs() || got.max(value) < ROUND_OFF
+    };
     for ((&chi, &got), &value) in chi.iter().zip(&restitution).zip(&theory) {
         let stated =
             expected.points.iter().find(|(at, _)| (at - chi).abs() < 1e-9).map_or(value, |point| point.1);

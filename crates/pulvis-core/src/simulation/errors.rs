@@ -48,6 +48,14 @@ pub enum SetupError {
     /// The threads cannot be started.
     #[error("cannot start {0} threads; ask for fewer")]
     Threads(usize),
+    /// More particles than rows can be numbered.
+    #[error("{found} particles are more than {most}, the most that one simulation can number")]
+    TooMany {
+        /// How many there are.
+        found: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// The time step is no positive number.
     #[error("the time step is {0} s, expected a number greater than zero")]
     TimeStep(f64),

@@ -85,6 +85,17 @@ struct Outcome {
     seconds: f64,
 }
 
+/// Contacts keep 32-bit places of rows, counted in numbers of which a quad has four. Remembered contacts,
+/// some three a particle, then still have 32-bit numbers; whatever else is counted over contacts has 64.
+const MOST_PARTICLES: usize = u32::MAX as usize / 4;
+
+fn check_count(found: usize) -> Result<(), SetupError> {
+    if found > MOST_PARTICLES {
+        return Err(SetupError::TooMany { found, most: MOST_PARTICLES });
+    }
+    Ok(())
+}
+
 impl Simulation {
     /// Sets the simulation up and computes the forces of its initial state.
     pub fn new(setup: Setup) -> Result<Self, SetupError> {
@@ -92,6 +103,7 @@ impl Simulation {
         if !(time_step > 0.0 && time_step.is_finite()) {
             return Err(SetupError::TimeStep(time_step));
         }
+        check_count(particles.len())?;
         let mut simulation = Self {
             particles: Particles::new(&particles),
             interactions,
@@ -270,5 +282,17 @@ impl Simulation {
     /// Number of threads that do the work.
     pub fn threads(&self) -> usize {
         self.team.threads()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_particles_than_can_be_numbered_are_refused() {
+        assert_eq!(check_count(1_000_000_000), Ok(()));
+        let refused = check_count(2_000_000_000);
+        assert_eq!(refused, Err(SetupError::TooMany { found: 2_000_000_000, most: 1_073_741_823 }));
     }
 }

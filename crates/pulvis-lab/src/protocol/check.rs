@@ -9,8 +9,8 @@ use pulvis_input::collision::luding_pair;
 use pulvis_input::scenario::{Scenario, WallControl};
 
 use super::error::PrepareError;
-use super::run::sensible_threads;
 use super::packed::packed_memory;
+use super::run::sensible_threads;
 use super::setup::{Prepared, between, prepare};
 
 /// Everything that is known of a run before its first step.
