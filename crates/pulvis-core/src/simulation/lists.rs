@@ -41,9 +41,10 @@ impl Simulation {
     }
 
     /// Takes the skin that suits the number of candidates in the present list, as far as periods allow.
-    fn choose_skin(&mut self) {
+    /// Answers whether it is another one.
+    pub(super) fn choose_skin(&mut self) -> bool {
         if !self.chooses_skin {
-            return;
+            return false;
         }
         let candidates = self.candidates() as f64 / self.particles.len().max(1) as f64;
         let suited = if candidates < GAS {
@@ -51,12 +52,13 @@ impl Simulation {
         } else if candidates > PACKING {
             SKIN_OF_PACKING
         } else {
-            return;
+            return false;
         };
         let before = std::mem::replace(&mut self.skin.thickness, suited * self.mean_radius);
         if self.check_periods().is_err() {
             self.skin.thickness = before;
         }
+        before.to_bits() != self.skin.thickness.to_bits()
     }
 
     /// Puts the particles into cell order and lists all candidates within reach and skin.

@@ -143,6 +143,9 @@ impl Simulation {
             state.start(&wall.motion);
         }
         simulation.rebuild();
+        if simulation.choose_skin() {
+            simulation.rebuild();
+        }
         simulation.evaluate_at_rest();
         simulation.running.forget_losses();
         simulation.running.initial = simulation.ledger().held();
