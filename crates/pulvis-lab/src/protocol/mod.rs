@@ -7,6 +7,7 @@ mod check;
 mod error;
 mod folder;
 mod measure;
+mod pace;
 mod packed;
 mod particles;
 mod report;

@@ -6,16 +6,17 @@ use std::time::Instant;
 
 use pulvis_core::Simulation;
 use pulvis_core::walls::WallMotion;
-use pulvis_input::scenario::{Interval, Scenario, Snapshots as SnapshotPlan, WallControl};
+use pulvis_input::scenario::{Scenario, Snapshots as SnapshotPlan, WallControl};
 use pulvis_io::table::TimeSeriesWriter;
 
 use super::error::{PrepareError, RunError};
 use super::folder;
 use super::measure::Measure;
+use super::pace::{Due, PACE, Pace};
 use super::report::{self, Series};
 use super::setup::{Prepared, StagePlan, motion, prepare};
 use super::snapshots::Snapshots;
-use super::stage::{Ending, StageWatch, length, whole_steps};
+use super::stage::{Ending, StageWatch, length};
 
 /// Where a run writes, and how.
 #[derive(Clone, Debug)]
@@ -146,40 +147,6 @@ struct Run<'a> {
     began: Instant,
     rows_due: Due,
     frames_due: Option<Due>,
-}
-
-/// When something regular happens next.
-#[derive(Clone, Copy, Debug)]
-struct Due {
-    interval: Interval,
-    count: u64,
-}
-
-impl Due {
-    fn new(interval: Interval) -> Self {
-        Self { interval, count: 0 }
-    }
-
-    /// Steps before which it is certainly not time.
-    fn steps_left(&self, simulation: &Simulation) -> u64 {
-        match self.interval {
-            Interval::Steps(steps) => ((self.count + 1) * steps).saturating_sub(simulation.steps()),
-            Interval::Time(time) => whole_steps((self.count + 1) as f64 * time, simulation),
-        }
-    }
-
-    /// Whether it is time; counts one up if so.
-    fn now(&mut self, simulation: &Simulation) -> bool {
-        let due = match self.interval {
-            Interval::Steps(steps) => simulation.steps() >= (self.count + 1) * steps,
-            Interval::Time(time) => {
-                // Half a step of tolerance: sums of time steps are not exact.
-                simulation.time() + 0.5 * simulation.time_step() >= (self.count + 1) as f64 * time
-            }
-        };
-        self.count += u64::from(due);
-        due
-    }
 }
 
 impl<'a> Run<'a> {
@@ -373,36 +340,6 @@ impl<'a> Run<'a> {
             energy_error_max,
             pictures,
         })
-    }
-}
-
-/// Steps between looks at the clock and at a user who wants to stop.
-const PACE: u64 = 16;
-
-/// Speed, and when to tell about it next.
-struct Pace {
-    began: Instant,
-    told: Instant,
-    told_steps: u64,
-}
-
-impl Pace {
-    fn new(steps: u64) -> Self {
-        Self { began: Instant::now(), told: Instant::now(), told_steps: steps }
-    }
-
-    /// Five times a second, looked at every so many steps.
-    fn is_due(&self, steps: u64) -> bool {
-        steps.is_multiple_of(PACE) && self.told.elapsed().as_secs_f64() > 0.2
-    }
-
-    /// Steps per second since it was last told.
-    fn rate(&mut self, steps: u64) -> f64 {
-        let seconds = self.told.elapsed().as_secs_f64();
-        let rate = (steps - self.told_steps) as f64 / seconds.max(1e-9);
-        self.told = Instant::now();
-        self.told_steps = steps;
-        rate
     }
 }
 

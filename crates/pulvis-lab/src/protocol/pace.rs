@@ -1,0 +1,72 @@
+//! When a run looks at what it does: rows, frames, progress.
+
+use std::time::Instant;
+
+use pulvis_core::Simulation;
+use pulvis_input::scenario::Interval;
+
+use super::stage::whole_steps;
+
+/// When something regular happens next.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Due {
+    interval: Interval,
+    count: u64,
+}
+
+impl Due {
+    pub(super) fn new(interval: Interval) -> Self {
+        Self { interval, count: 0 }
+    }
+
+    /// Steps before which it is certainly not time.
+    pub(super) fn steps_left(&self, simulation: &Simulation) -> u64 {
+        match self.interval {
+            Interval::Steps(steps) => ((self.count + 1) * steps).saturating_sub(simulation.steps()),
+            Interval::Time(time) => whole_steps((self.count + 1) as f64 * time, simulation),
+        }
+    }
+
+    /// Whether it is time; counts one up if so.
+    pub(super) fn now(&mut self, simulation: &Simulation) -> bool {
+        let due = match self.interval {
+            Interval::Steps(steps) => simulation.steps() >= (self.count + 1) * steps,
+            Interval::Time(time) => {
+                // Half a step of tolerance: sums of time steps are not exact.
+                simulation.time() + 0.5 * simulation.time_step() >= (self.count + 1) as f64 * time
+            }
+        };
+        self.count += u64::from(due);
+        due
+    }
+}
+
+/// Steps between looks at the clock and at a user who wants to stop.
+pub(super) const PACE: u64 = 16;
+
+/// Speed, and when to tell about it next.
+pub(super) struct Pace {
+    pub(super) began: Instant,
+    told: Instant,
+    told_steps: u64,
+}
+
+impl Pace {
+    pub(super) fn new(steps: u64) -> Self {
+        Self { began: Instant::now(), told: Instant::now(), told_steps: steps }
+    }
+
+    /// Five times a second, looked at every so many steps.
+    pub(super) fn is_due(&self, steps: u64) -> bool {
+        steps.is_multiple_of(PACE) && self.told.elapsed().as_secs_f64() > 0.2
+    }
+
+    /// Steps per second since it was last told.
+    pub(super) fn rate(&mut self, steps: u64) -> f64 {
+        let seconds = self.told.elapsed().as_secs_f64();
+        let rate = (steps - self.told_steps) as f64 / seconds.max(1e-9);
+        self.told = Instant::now();
+        self.told_steps = steps;
+        rate
+    }
+}
