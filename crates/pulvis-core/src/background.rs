@@ -2,8 +2,6 @@
 
 use pulvis_math::Vector3;
 
-use crate::particles::Particles;
-
 /// Gravity and background drag.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Background {
@@ -46,14 +44,5 @@ impl Background {
             torque: spin * turning,
             power: self.drag * velocity.norm_squared() + turning * spin.norm_squared(),
         }
-    }
-
-    /// Potential energy in the gravity field [J].
-    pub(crate) fn potential(&self, particles: &Particles) -> f64 {
-        if self.gravity == Vector3::zero() {
-            return 0.0;
-        }
-        let parts = particles.mass.iter().zip(&particles.place);
-        parts.map(|(&mass, place)| -mass * self.gravity.dot(place.vector)).sum()
     }
 }

@@ -4,6 +4,8 @@ use std::ops::Index;
 
 use pulvis_math::{Quad, Vector3};
 
+use crate::team::Team;
+
 /// A particle's name: stable for its whole life, what files and interfaces show. Rows move when the
 /// neighbour search puts them into cell order; ids do not.
 pub type ParticleId = u32;
@@ -110,13 +112,6 @@ impl Index<usize> for Vectors<'_> {
     }
 }
 
-/// The column in a new order: row k becomes what was row `order[k]`. `spare` is exchanged for it.
-fn reorder<T: Copy>(column: &mut Vec<T>, order: &[u32], spare: &mut Vec<T>) {
-    spare.clear();
-    spare.extend(order.iter().map(|&row| column[row as usize]));
-    std::mem::swap(column, spare);
-}
-
 impl Particles {
     /// Particles with ids 0, 1, 2, ... in the given order.
     pub fn new(particles: &[Particle]) -> Self {
@@ -205,13 +200,13 @@ impl Particles {
 
     /// Puts the rows into a new order: row k becomes what was row `order[k]`. Loads are not moved: they are
     /// computed anew after every change of order.
-    pub(crate) fn reorder(&mut self, order: &[u32]) {
-        reorder(&mut self.id, order, &mut Vec::new());
-        reorder(&mut self.material, order, &mut Vec::new());
-        let mut numbers = Vec::with_capacity(order.len());
-        reorder(&mut self.radius, order, &mut numbers);
-        reorder(&mut self.mass, order, &mut numbers);
-        let mut quads = Vec::with_capacity(order.len());
+    pub(crate) fn reorder(&mut self, order: &[u32], team: &Team) {
+        team.reorder(&mut self.id, order, &mut Vec::new());
+        team.reorder(&mut self.material, order, &mut Vec::new());
+        let mut numbers = Vec::new();
+        team.reorder(&mut self.radius, order, &mut numbers);
+        team.reorder(&mut self.mass, order, &mut numbers);
+        let mut quads = Vec::new();
         for column in [
             &mut self.place,
             &mut self.velocity,
@@ -219,7 +214,7 @@ impl Particles {
             &mut self.velocity_predicted,
             &mut self.spin_predicted,
         ] {
-            reorder(column, order, &mut quads);
+            team.reorder(column, order, &mut quads);
         }
     }
 

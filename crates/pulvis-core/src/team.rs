@@ -2,6 +2,7 @@
 
 use std::any::Any;
 use std::cell::UnsafeCell;
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -67,6 +68,41 @@ impl Team {
         });
     }
 
+    /// The sums of what `part` answers for stretches of all rows. The stretches do not depend on the
+    /// threads and are summed in their order.
+    pub(crate) fn sum_over<const SUMS: usize>(
+        &self,
+        rows: usize,
+        part: impl Fn(Range<usize>) -> [f64; SUMS] + Sync,
+    ) -> [f64; SUMS] {
+        let mut parts = vec![[0.0; SUMS]; rows.div_ceil(STRETCH)];
+        self.for_each(&mut parts, |number, sums| *sums = part(stretch(number, rows)));
+        parts.iter().fold([0.0; SUMS], |mut total, sums| {
+            total.iter_mut().zip(sums).for_each(|(total, sum)| *total += sum);
+            total
+        })
+    }
+
+    /// The column in a new order: row k becomes what was row `order[k]`. `spare` is exchanged for it.
+    pub(crate) fn reorder<T: Copy + Default + Send + Sync>(
+        &self,
+        column: &mut Vec<T>,
+        order: &[u32],
+        spare: &mut Vec<T>,
+    ) {
+        spare.resize(order.len(), T::default());
+        let (from, to) = (&column[..], Shared::new(spare));
+        self.for_each_number(order.len().div_ceil(STRETCH), |_, number| {
+            let rows = stretch(number, order.len());
+            // SAFETY: stretches have different rows.
+            let to = unsafe { to.range_mut(rows.clone()) };
+            for (slot, &row) in to.iter_mut().zip(&order[rows]) {
+                *slot = from[row as usize];
+            }
+        });
+        std::mem::swap(column, spare);
+    }
+
     /// Does `work` on every item, with its place.
     pub(crate) fn for_each<T: Send>(&self, items: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
         let count = items.len();
@@ -74,6 +110,13 @@ impl Team {
         // SAFETY: every number is handed out once.
         self.for_each_number(count, |_, number| work(number, unsafe { items.get_mut(number) }));
     }
+}
+
+/// Rows that are summed or moved in one go.
+const STRETCH: usize = 4096;
+
+fn stretch(number: usize, rows: usize) -> Range<usize> {
+    number * STRETCH..((number + 1) * STRETCH).min(rows)
 }
 
 type Job<'a> = dyn Fn(usize) + Sync + 'a;
@@ -274,6 +317,25 @@ mod tests {
             }
             let expected = |place: usize| 200 * place + 199 * 100;
             assert!(items.iter().enumerate().all(|(place, &item)| item == expected(place)), "{threads}");
+        }
+    }
+
+    #[test]
+    fn sums_and_orders_are_the_same_for_teams_of_any_size() {
+        let rows = 3 * STRETCH + 17;
+        let values: Vec<f64> = (0..rows).map(|row| (row as f64).sin()).collect();
+        let order: Vec<u32> = (0..rows as u32).rev().collect();
+        let of = |threads: usize| {
+            let team = Team::of(threads).unwrap();
+            let [sum] = team.sum_over(rows, |rows| [values[rows].iter().sum()]);
+            let (mut column, mut spare) = (values.clone(), Vec::new());
+            team.reorder(&mut column, &order, &mut spare);
+            (sum.to_bits(), column)
+        };
+        let alone = of(1);
+        assert!(alone.1.iter().eq(values.iter().rev()));
+        for threads in [2, 3, 8] {
+            assert!(of(threads) == alone, "{threads}");
         }
     }
 

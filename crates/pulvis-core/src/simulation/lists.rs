@@ -5,6 +5,7 @@ use crate::contacts::Surroundings;
 use crate::neighbours::CellGrid;
 use crate::particles::Load;
 use crate::phases::Stopwatch;
+use crate::shared::Shared;
 use crate::walls::Wall;
 
 /// The skin of the candidate list over the mean radius, in a packing and in a gas. Thicker lists are
@@ -61,18 +62,32 @@ impl Simulation {
         before.to_bits() != self.skin.thickness.to_bits()
     }
 
+    /// Brings all positions back into the periodic box.
+    fn wrap(&mut self) {
+        let (domain, gravity) = (&self.domain, self.background.gravity);
+        let masses = &self.particles.mass;
+        let places = Shared::new(&mut self.particles.place);
+        let [fallen] = self.team.sum_over(masses.len(), |rows| {
+            // SAFETY: stretches have different rows.
+            let places = unsafe { places.range_mut(rows.clone()) };
+            let mut fallen = 0.0;
+            for (place, mass) in places.iter_mut().zip(&masses[rows]) {
+                let wrapped = domain.wrapped(place.vector);
+                // Falling through a periodic boundary is falling on: the potential must not jump.
+                fallen += mass * gravity.dot(wrapped - place.vector);
+                place.vector = wrapped;
+            }
+            [fallen]
+        });
+        self.running.gravity_wrapped += fallen;
+    }
+
     /// Puts the particles into cell order and lists all candidates within reach and skin.
     pub(super) fn rebuild(&mut self) {
-        let gravity = self.background.gravity;
-        for (place, mass) in self.particles.place.iter_mut().zip(&self.particles.mass) {
-            let wrapped = self.domain.wrapped(place.vector);
-            // Falling through a periodic boundary is falling on: the potential must not jump.
-            self.running.gravity_wrapped += mass * gravity.dot(wrapped - place.vector);
-            place.vector = wrapped;
-        }
+        self.wrap();
         let margin = self.interactions.reach() + self.skin.thickness;
         let (grid, order) = CellGrid::sort(&self.domain, &self.particles.place, margin);
-        self.particles.reorder(&order);
+        self.particles.reorder(&order, &self.team);
         let around = Surroundings {
             particles: &self.particles,
             order: &order,

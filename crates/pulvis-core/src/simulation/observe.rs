@@ -8,14 +8,21 @@ impl Simulation {
     /// Draws up the energy ledger.
     pub fn ledger(&mut self) -> Ledger {
         let particles = &self.particles;
-        let (mut translation, mut rotation, mut discretisation) = (0.0, 0.0, 0.0);
-        for row in 0..particles.len() {
-            let (mass, inertia) = (particles.mass[row], particles.inertia(row));
-            translation += 0.5 * mass * particles.velocity[row].vector.norm_squared();
-            rotation += 0.5 * inertia * particles.spin[row].vector.norm_squared();
-            discretisation += particles.loads[row].force.vector.norm_squared() / mass
-                + particles.loads[row].torque.vector.norm_squared() / inertia;
-        }
+        let gravity = self.background.gravity;
+        let [translation, rotation, discretisation, potential] =
+            self.team.sum_over(particles.len(), |rows| {
+                let mut sums = [0.0; 4];
+                for row in rows {
+                    let (mass, inertia) = (particles.mass[row], particles.inertia(row));
+                    let load = &particles.loads[row];
+                    sums[0] += 0.5 * mass * particles.velocity[row].vector.norm_squared();
+                    sums[1] += 0.5 * inertia * particles.spin[row].vector.norm_squared();
+                    sums[2] += load.force.vector.norm_squared() / mass;
+                    sums[2] += load.torque.vector.norm_squared() / inertia;
+                    sums[3] -= mass * gravity.dot(particles.place[row].vector);
+                }
+                sums
+            });
         let unknown = if self.accounting { 0.0 } else { f64::NAN };
         let held = self.running.contacts;
         let mut ledger = Ledger {
@@ -27,7 +34,7 @@ impl Simulation {
             elastic_rolling: held.elastic_rolling + unknown,
             elastic_torsion: held.elastic_torsion + unknown,
             adhesive: held.adhesive_potential + unknown,
-            gravity: self.background.potential(particles) + self.running.gravity_wrapped,
+            gravity: potential + self.running.gravity_wrapped,
             dissipated_plastic: held.dissipated_plastic + unknown,
             dissipated_adhesive: held.dissipated_adhesive + unknown,
             dissipated_viscous: self.running.viscous + unknown,
