@@ -137,8 +137,8 @@ impl Kernel for KickAndDrift<'_> {
     }
 }
 
-/// Adds the background to the `loads` of the contacts on the rows, and does the second half kick over `half` a time
-/// step [s]. Answers with the power that the drag takes [W].
+/// Adds the background to the `loads` of the contacts on the rows, and does the second half kick over
+/// `half` a time step [s]. Answers with the power that the drag takes [W].
 pub(crate) struct Kick<'a> {
     columns: Columns<'a>,
     rows: Range<usize>,

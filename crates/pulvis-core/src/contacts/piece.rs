@@ -39,7 +39,7 @@ struct Near {
 pub(crate) struct Piece {
     pub(crate) rows: Range<usize>,
     pub(crate) groups: Vec<ContactGroup>,
-    /// Rows of later pieces, in ascending order; only while candidates are listed.
+    /// Rows of later pieces, in ascending order: what listing gives to the list of all halos.
     pub(crate) halo: Vec<u32>,
     /// Parts of the halos of earlier pieces that are rows of this one.
     pub(crate) incoming: Vec<Incoming>,
