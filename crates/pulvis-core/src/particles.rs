@@ -69,6 +69,15 @@ pub(crate) struct Load {
     pub(crate) torque: Quad,
 }
 
+impl Load {
+    /// Force and torque.
+    #[inline(always)]
+    pub(crate) fn quads_mut(&mut self) -> &mut [Quad; 2] {
+        // SAFETY: two quads one behind the other, as `repr(C)` lays them out, are an array of two.
+        unsafe { &mut *(&raw mut *self).cast() }
+    }
+}
+
 /// One vector of every particle.
 #[derive(Clone, Copy, Debug)]
 pub struct Vectors<'a>(Column<'a>);

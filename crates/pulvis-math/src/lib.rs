@@ -22,7 +22,7 @@ mod vector;
 
 pub use dimension::Dimension;
 pub use lanes::{LaneMask, Lanes};
-pub use octet::{InstructionSet, Kernel, Octet, Quad, Row};
+pub use octet::{InstructionSet, Kernel, Octet, Quad, Row, Twin};
 pub use prefetch::prefetch;
 pub use real::{Mask, Real};
 pub use vector::Vector3;

@@ -219,6 +219,7 @@ unsafe fn transposed(rows: [__m256d; 4]) -> [__m256d; 4] {
 
 impl Octet for Ymm2 {
     type Row = Ymm;
+    type Twin = [Self::Row; 2];
 
     #[inline(always)]
     fn load(source: &Lanes<8>) -> Self {
@@ -252,6 +253,21 @@ impl Octet for Ymm2 {
             Ymm(high[1]),
             Ymm(high[2]),
             Ymm(high[3]),
+        ]
+    }
+
+    #[inline(always)]
+    fn twins(first: [Self; 4], second: [Self; 4]) -> [Self::Twin; 8] {
+        let (a, b) = (Self::rows(first), Self::rows(second));
+        [
+            [a[0], b[0]],
+            [a[1], b[1]],
+            [a[2], b[2]],
+            [a[3], b[3]],
+            [a[4], b[4]],
+            [a[5], b[5]],
+            [a[6], b[6]],
+            [a[7], b[7]],
         ]
     }
 }

@@ -6,7 +6,7 @@ use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign
 
 use super::avx2::Ymm;
 use super::operators::{lane_by_lane, octet_operators};
-use super::{Kernel, Octet};
+use super::{Kernel, Octet, Quad, Twin};
 use crate::lanes::Lanes;
 use crate::real::{Mask, Real};
 
@@ -22,6 +22,10 @@ pub(super) unsafe fn run<K: Kernel>(kernel: K) -> K::Output {
 /// Eight numbers.
 #[derive(Clone, Copy)]
 pub(super) struct Zmm(__m512d);
+
+/// Two quads.
+#[derive(Clone, Copy)]
+pub(super) struct Quads(__m512d);
 
 /// One bit a lane.
 #[derive(Clone, Copy, Debug)]
@@ -158,8 +162,38 @@ fn high(pair: __m512d) -> Ymm {
     unsafe { Ymm(_mm512_extractf64x4_pd::<1>(pair)) }
 }
 
+#[inline(always)]
+fn lows(one: __m512d, other: __m512d) -> Quads {
+    unsafe { Quads(_mm512_shuffle_f64x2::<0b01_00_01_00>(one, other)) }
+}
+
+#[inline(always)]
+fn highs(one: __m512d, other: __m512d) -> Quads {
+    unsafe { Quads(_mm512_shuffle_f64x2::<0b11_10_11_10>(one, other)) }
+}
+
+/// Rows 0 and 4, 1 and 5, 2 and 6, 3 and 7 of four columns.
+#[inline(always)]
+fn pairs_of_rows(columns: [Zmm; 4]) -> [__m512d; 4] {
+    unsafe {
+        let [x, y, z, w] = [columns[0].0, columns[1].0, columns[2].0, columns[3].0];
+        // Pairs x y of lanes 0, 2, 4, 6 and of lanes 1, 3, 5, 7; pairs z w alike.
+        let (xy_even, xy_odd) = (_mm512_unpacklo_pd(x, y), _mm512_unpackhi_pd(x, y));
+        let (zw_even, zw_odd) = (_mm512_unpacklo_pd(z, w), _mm512_unpackhi_pd(z, w));
+        let first = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
+        let second = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+        [
+            _mm512_permutex2var_pd(xy_even, first, zw_even),
+            _mm512_permutex2var_pd(xy_odd, first, zw_odd),
+            _mm512_permutex2var_pd(xy_even, second, zw_even),
+            _mm512_permutex2var_pd(xy_odd, second, zw_odd),
+        ]
+    }
+}
+
 impl Octet for Zmm {
     type Row = Ymm;
+    type Twin = Quads;
 
     #[inline(always)]
     fn load(source: &Lanes<8>) -> Self {
@@ -191,27 +225,54 @@ impl Octet for Zmm {
 
     #[inline(always)]
     fn rows(columns: [Self; 4]) -> [Ymm; 8] {
+        let [rows_0_4, rows_1_5, rows_2_6, rows_3_7] = pairs_of_rows(columns);
+        [
+            low(rows_0_4),
+            low(rows_1_5),
+            low(rows_2_6),
+            low(rows_3_7),
+            high(rows_0_4),
+            high(rows_1_5),
+            high(rows_2_6),
+            high(rows_3_7),
+        ]
+    }
+    #[inline(always)]
+    fn twins(first: [Self; 4], second: [Self; 4]) -> [Quads; 8] {
+        let [a_0_4, a_1_5, a_2_6, a_3_7] = pairs_of_rows(first);
+        let [b_0_4, b_1_5, b_2_6, b_3_7] = pairs_of_rows(second);
+        [
+            lows(a_0_4, b_0_4),
+            lows(a_1_5, b_1_5),
+            lows(a_2_6, b_2_6),
+            lows(a_3_7, b_3_7),
+            highs(a_0_4, b_0_4),
+            highs(a_1_5, b_1_5),
+            highs(a_2_6, b_2_6),
+            highs(a_3_7, b_3_7),
+        ]
+    }
+}
+
+impl Twin for Quads {
+    #[inline(always)]
+    fn load(quads: &[Quad; 2]) -> Self {
+        unsafe { Self(_mm512_loadu_pd((&raw const *quads).cast())) }
+    }
+    #[inline(always)]
+    fn store(self, quads: &mut [Quad; 2]) {
+        unsafe { _mm512_storeu_pd((&raw mut *quads).cast(), self.0) }
+    }
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        unsafe { Self(_mm512_add_pd(self.0, other.0)) }
+    }
+    #[inline(always)]
+    fn minus_plus(self, other: Self) -> Self {
+        // Products with ±1 are exact: the same bits as of a difference and a sum.
         unsafe {
-            let [x, y, z, w] = [columns[0].0, columns[1].0, columns[2].0, columns[3].0];
-            // Pairs x y of lanes 0, 2, 4, 6 and of lanes 1, 3, 5, 7; pairs z w alike.
-            let (xy_even, xy_odd) = (_mm512_unpacklo_pd(x, y), _mm512_unpackhi_pd(x, y));
-            let (zw_even, zw_odd) = (_mm512_unpacklo_pd(z, w), _mm512_unpackhi_pd(z, w));
-            let first = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
-            let second = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
-            let rows_0_4 = _mm512_permutex2var_pd(xy_even, first, zw_even);
-            let rows_2_6 = _mm512_permutex2var_pd(xy_even, second, zw_even);
-            let rows_1_5 = _mm512_permutex2var_pd(xy_odd, first, zw_odd);
-            let rows_3_7 = _mm512_permutex2var_pd(xy_odd, second, zw_odd);
-            [
-                low(rows_0_4),
-                low(rows_1_5),
-                low(rows_2_6),
-                low(rows_3_7),
-                high(rows_0_4),
-                high(rows_1_5),
-                high(rows_2_6),
-                high(rows_3_7),
-            ]
+            let signs = _mm512_set_pd(1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0);
+            Self(_mm512_fmadd_pd(other.0, signs, self.0))
         }
     }
 }

@@ -57,10 +57,44 @@ pub trait Row: Copy {
     fn with_scalar_of(self, other: Self) -> Self;
 }
 
+/// Two [`Quad`]s that stand side by side, in registers.
+pub trait Twin: Copy {
+    /// The quads in memory.
+    fn load(quads: &[Quad; 2]) -> Self;
+    /// Into memory.
+    fn store(self, quads: &mut [Quad; 2]);
+    /// Sum, number by number.
+    fn plus(self, other: Self) -> Self;
+    /// The difference of the first quads and the sum of the second ones, number by number.
+    fn minus_plus(self, other: Self) -> Self;
+}
+
+impl<R: Row> Twin for [R; 2] {
+    #[inline(always)]
+    fn load(quads: &[Quad; 2]) -> Self {
+        [R::load(&quads[0]), R::load(&quads[1])]
+    }
+    #[inline(always)]
+    fn store(self, quads: &mut [Quad; 2]) {
+        self[0].store(&mut quads[0]);
+        self[1].store(&mut quads[1]);
+    }
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        [self[0].plus(other[0]), self[1].plus(other[1])]
+    }
+    #[inline(always)]
+    fn minus_plus(self, other: Self) -> Self {
+        [self[0].minus(other[0]), self[1].plus(other[1])]
+    }
+}
+
 /// Eight numbers at a time, one a lane.
 pub trait Octet: Real {
     /// Four numbers at a time.
     type Row: Row;
+    /// Two rows at a time.
+    type Twin: Twin;
     /// Eight numbers in memory.
     fn load(source: &Lanes<8>) -> Self;
     /// Into memory.
@@ -76,6 +110,8 @@ pub trait Octet: Real {
     fn columns(rows: [Self::Row; 8]) -> [Self; 4];
     /// The rows of four columns.
     fn rows(columns: [Self; 4]) -> [Self::Row; 8];
+    /// The rows of two times four columns, side by side.
+    fn twins(first: [Self; 4], second: [Self; 4]) -> [Self::Twin; 8];
 }
 
 /// A loop that is compiled for every instruction set.

@@ -37,6 +37,7 @@ impl Row for [f64; 4] {
 
 impl Octet for Lanes<8> {
     type Row = [f64; 4];
+    type Twin = [Self::Row; 2];
     #[inline(always)]
     fn load(source: &Lanes<8>) -> Self {
         *source
@@ -64,5 +65,20 @@ impl Octet for Lanes<8> {
             }
         }
         rows
+    }
+
+    #[inline(always)]
+    fn twins(first: [Self; 4], second: [Self; 4]) -> [Self::Twin; 8] {
+        let (a, b) = (Self::rows(first), Self::rows(second));
+        [
+            [a[0], b[0]],
+            [a[1], b[1]],
+            [a[2], b[2]],
+            [a[3], b[3]],
+            [a[4], b[4]],
+            [a[5], b[5]],
+            [a[6], b[6]],
+            [a[7], b[7]],
+        ]
     }
 }

@@ -230,6 +230,7 @@ macro_rules! even_and_odd {
 
 impl Octet for Xmm4 {
     type Row = Xmm2;
+    type Twin = [Self::Row; 2];
 
     #[inline(always)]
     fn load(source: &Lanes<8>) -> Self {
@@ -283,5 +284,20 @@ impl Octet for Xmm4 {
                 Xmm2(h0, h1),
             ]
         }
+    }
+
+    #[inline(always)]
+    fn twins(first: [Self; 4], second: [Self; 4]) -> [Self::Twin; 8] {
+        let (a, b) = (Self::rows(first), Self::rows(second));
+        [
+            [a[0], b[0]],
+            [a[1], b[1]],
+            [a[2], b[2]],
+            [a[3], b[3]],
+            [a[4], b[4]],
+            [a[5], b[5]],
+            [a[6], b[6]],
+            [a[7], b[7]],
+        ]
     }
 }

@@ -3,7 +3,7 @@
 use std::mem::MaybeUninit;
 
 use pulvis_contact::{Composition, ContactEnergies, NormalLaw, Pair, PairMotion, resistance};
-use pulvis_math::{Octet, Quad, Row, Vector3};
+use pulvis_math::{Octet, Quad, Row, Twin, Vector3};
 
 use super::super::block::WIDTH;
 use super::super::layout::{Lane, Layout};
@@ -40,13 +40,24 @@ pub(super) struct Response<N> {
     pub(super) time_step: f64,
 }
 
-/// Adds eight rows to the sums, one after the other: several lanes may have the same place.
-macro_rules! add_rows {
-    ($sums:expr, $places:expr, $part:ident, $sum:ident, $rows:expr) => {
+/// Adds eight loads to the sums, one after the other: several lanes may have the same place.
+macro_rules! add_loads {
+    ($sums:expr, $places:expr, $sum:ident, $loads:expr) => {
         for lane in 0..WIDTH {
             // SAFETY: places lie within the sums, as the caller vouches.
-            let slot = unsafe { &mut $sums.get_mut_at_number($places[lane]).$part };
-            R::Row::load(slot).$sum($rows[lane]).store(slot);
+            let quads = unsafe { $sums.get_mut_at_number($places[lane]) }.quads_mut();
+            R::Twin::load(quads).$sum($loads[lane]).store(quads);
+        }
+    };
+}
+
+/// The same for forces alone.
+macro_rules! add_forces {
+    ($sums:expr, $places:expr, $sum:ident, $forces:expr) => {
+        for lane in 0..WIDTH {
+            // SAFETY: places lie within the sums, as the caller vouches.
+            let force = unsafe { &mut $sums.get_mut_at_number($places[lane]).force };
+            R::Row::load(force).$sum($forces[lane]).store(force);
         }
     };
 }
@@ -134,18 +145,19 @@ impl<R: Octet> Batch<R> {
                 (self.gathered[place].assume_init_ref().block, self.answered[place].assume_init_ref())
             };
             let first = &first[block];
-            let force = rows_of::<R>(answer.force);
-            add_rows!(sums, first, force, plus, force);
-            if PAIRS {
-                add_rows!(sums, &second[block], force, minus, force);
-            }
-            if RESISTANCE != resistance::NONE {
-                let torque = rows_of::<R>(answer.torque_i);
-                add_rows!(sums, first, torque, plus, torque);
+            if RESISTANCE == resistance::NONE {
+                let forces = R::rows(columns_of(answer.force));
+                add_forces!(sums, first, plus, forces);
                 if PAIRS {
-                    let torque = rows_of::<R>(answer.torque_j);
-                    add_rows!(sums, &second[block], torque, plus, torque);
+                    add_forces!(sums, &second[block], minus, forces);
                 }
+                continue;
+            }
+            let loads = R::twins(columns_of(answer.force), columns_of(answer.torque_i));
+            add_loads!(sums, first, plus, loads);
+            if PAIRS {
+                let loads = R::twins(columns_of(answer.force), columns_of(answer.torque_j));
+                add_loads!(sums, &second[block], minus_plus, loads);
             }
         }
         self.count = 0;
@@ -174,8 +186,8 @@ pub(super) unsafe fn gather<R: Octet>(column: Shared<'_, Quad>, rows: &[u32; WID
     (Vector3::new(x, y, z), scalar)
 }
 
-/// The rows of a vector; their scalars are zero.
+/// The columns of a vector; the scalars are zero.
 #[inline(always)]
-fn rows_of<R: Octet>(vector: Vector3<R>) -> [R::Row; WIDTH] {
-    R::rows([vector.x, vector.y, vector.z, R::zero()])
+fn columns_of<R: Octet>(vector: Vector3<R>) -> [R; 4] {
+    [vector.x, vector.y, vector.z, R::zero()]
 }
