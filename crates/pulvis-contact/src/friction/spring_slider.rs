@@ -170,12 +170,14 @@ impl SpringSlider {
         motion: &SpringMotion<Vector3<R>, R>,
         spring: &mut Vector3<R>,
     ) -> FrictionResponse<Vector3<R>, R> {
-        let opposing = R::splat(-self.stiffness);
-        let gamma = R::splat(self.dashpot);
         let before = *spring;
         let trial = before + motion.displacement;
-        let damping = motion.velocity * gamma;
-        let trial_force = trial * opposing - damping;
+        let mut trial_force = trial * R::splat(-self.stiffness);
+        let damping = motion.velocity * R::splat(self.dashpot);
+        // Most sliders have no dashpot.
+        if self.dashpot != 0.0 {
+            trial_force -= damping;
+        }
         let static_limit = R::splat(self.static_coefficient) * motion.friction_reference;
         let half = R::splat(0.5 * self.stiffness);
         // Squares are compared: the root and the quotient are for contacts that slide.
@@ -189,13 +191,19 @@ impl SpringSlider {
         let force = trial_force * factor;
         // The spring has the length that gives the limited force; otherwise it would keep the
         // length of the trial and pull backwards when the motion reverses.
-        let after = Vector3::select(slides, (force + damping) * R::splat(-1.0 / self.stiffness), trial);
+        let mut spring_force = force;
+        let mut viscous_power = R::zero();
+        if self.dashpot != 0.0 {
+            spring_force += damping;
+            viscous_power = motion.velocity.dot(damping);
+        }
+        let after = Vector3::select(slides, spring_force * R::splat(-1.0 / self.stiffness), trial);
         *spring = after;
         FrictionResponse {
             force,
             stored_energy: half * after.norm_squared(),
             dissipated_slip: half * (before + after).dot(trial - after),
-            viscous_power: motion.velocity.dot(damping),
+            viscous_power,
         }
     }
 

@@ -23,6 +23,12 @@ pub(crate) enum Partner {
     Wall(usize),
 }
 
+/// Places for the first and for the second bodies of eight contacts; a last, incomplete block repeats
+/// its first contact. Walls, as second bodies, have none: zeros stand there.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(crate) struct Places(pub(crate) [[u32; WIDTH]; 2]);
+
 /// Candidate contacts of one piece that one model rules: particle pairs of two materials, or particles
 /// of one material near one wall.
 #[derive(Clone, Debug)]
@@ -30,14 +36,11 @@ pub(crate) struct ContactGroup {
     pub(crate) model: ContactModel,
     pub(crate) layout: Layout,
     pub(crate) partner: Partner,
-    /// Rows of the first bodies, times [`QUAD`]; a last, incomplete block repeats its first contact.
-    pub(crate) first: Vec<[u32; WIDTH]>,
-    /// Rows of the second bodies, times [`QUAD`]; empty for walls.
-    pub(crate) second: Vec<[u32; WIDTH]>,
-    /// Where the loads on the first bodies are summed: places among those of the piece, times [`LOAD`].
-    pub(crate) first_sum: Vec<[u32; WIDTH]>,
-    /// The same for the second bodies; empty for walls.
-    pub(crate) second_sum: Vec<[u32; WIDTH]>,
+    /// Rows of the bodies of each block, times [`QUAD`].
+    pub(crate) rows: Vec<Places>,
+    /// Where their loads are summed: places among those of the piece, times [`LOAD`]. Apart from the
+    /// rows: blocks that are looked at and found not to act need none.
+    pub(crate) sums: Vec<Places>,
     /// Memory: for each block, one value of eight lanes a column.
     pub(crate) memory: Vec<Lane>,
     /// Whether any contact of the block acted when it was last looked at. Blocks that did not, and
@@ -54,9 +57,9 @@ pub(crate) struct ContactGroup {
 /// A candidate contact as it is listed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate {
-    /// Rows of the bodies; for walls twice the same.
+    /// Rows of the bodies; zero for a wall.
     pub(crate) rows: [u32; 2],
-    /// Where their loads are summed: see [`ContactGroup`].
+    /// Where their loads are summed.
     pub(crate) sums: [u32; 2],
     /// Gap to the reach [m].
     pub(crate) gap: f64,
@@ -72,10 +75,8 @@ impl ContactGroup {
                 model,
                 layout,
                 partner,
-                first: Vec::new(),
-                second: Vec::new(),
-                first_sum: Vec::new(),
-                second_sum: Vec::new(),
+                rows: Vec::new(),
+                sums: Vec::new(),
                 memory: Vec::new(),
                 live: Vec::new(),
                 gap: Vec::new(),
@@ -83,9 +84,8 @@ impl ContactGroup {
                 count: 0,
             };
         };
-        for rows in [&mut group.first, &mut group.second, &mut group.first_sum, &mut group.second_sum] {
-            rows.clear();
-        }
+        group.rows.clear();
+        group.sums.clear();
         group.memory.clear();
         group.live.clear();
         group.gap.clear();
@@ -99,8 +99,8 @@ impl ContactGroup {
 
     /// Memory of the candidates and of what they remember [byte].
     pub(crate) fn memory_size(&self) -> usize {
-        let rows = [&self.first, &self.second, &self.first_sum, &self.second_sum];
-        rows.map(|column| size_of_val(&column[..])).iter().sum::<usize>()
+        size_of_val(&self.rows[..])
+            + size_of_val(&self.sums[..])
             + size_of_val(&self.memory[..])
             + size_of_val(&self.gap[..])
             + self.live.len()
@@ -109,26 +109,21 @@ impl ContactGroup {
     /// Adds a candidate contact, with its memory where it has any.
     pub(crate) fn push(&mut self, candidate: &Candidate, remembered: Option<&[f64]>) {
         let lane = self.count % WIDTH;
-        let [first, second] = candidate.rows.map(|row| row * QUAD);
-        let [first_sum, second_sum] = candidate.sums.map(|place| place * LOAD);
+        let rows = candidate.rows.map(|row| row * QUAD);
+        let sums = candidate.sums.map(|place| place * LOAD);
         if lane == 0 {
-            self.first.push([first; WIDTH]);
-            self.first_sum.push([first_sum; WIDTH]);
-            if self.partner == Partner::Particle {
-                self.second.push([second; WIDTH]);
-                self.second_sum.push([second_sum; WIDTH]);
-            }
+            let all = |place: u32| [place; WIDTH];
+            self.rows.push(Places(rows.map(all)));
+            self.sums.push(Places(sums.map(all)));
             self.memory.resize(self.memory.len() + self.layout.columns(), Lane::default());
             self.live.push(false);
             self.gap.push(candidate.gap);
         }
-        let block = self.first.len() - 1;
+        let block = self.rows.len() - 1;
         self.gap[block] = self.gap[block].min(candidate.gap);
-        self.first[block][lane] = first;
-        self.first_sum[block][lane] = first_sum;
-        if self.partner == Partner::Particle {
-            self.second[block][lane] = second;
-            self.second_sum[block][lane] = second_sum;
+        for body in 0..2 {
+            self.rows[block].0[body][lane] = rows[body];
+            self.sums[block].0[body][lane] = sums[body];
         }
         if let Some(record) = remembered {
             let columns = self.layout.columns();
@@ -142,12 +137,12 @@ impl ContactGroup {
 
     /// Row of the first body of a contact.
     pub(crate) fn first_row(&self, block: usize, lane: usize) -> u32 {
-        self.first[block][lane] / QUAD
+        self.rows[block].0[0][lane] / QUAD
     }
 
     /// Row of the second body of a contact between particles.
     pub(crate) fn second_row(&self, block: usize, lane: usize) -> u32 {
-        self.second[block][lane] / QUAD
+        self.rows[block].0[1][lane] / QUAD
     }
 
     /// The columns of memory of a block.
@@ -166,7 +161,7 @@ impl ContactGroup {
     pub(crate) fn for_each_memory(&self, mut action: impl FnMut(usize, usize, &[f64])) {
         let columns = self.layout.columns();
         let mut record = vec![0.0; columns];
-        for block in (0..self.first.len()).filter(|&block| self.live[block]) {
+        for block in (0..self.rows.len()).filter(|&block| self.live[block]) {
             let memory = self.columns(block);
             for lane in 0..self.filled(block) {
                 for (slot, column) in record.iter_mut().zip(memory) {

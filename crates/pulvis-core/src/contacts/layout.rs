@@ -1,12 +1,13 @@
 //! Where the parts of a contact's memory stand among its columns.
 
-use pulvis_contact::{ContactMemory, ContactModel, Memory, NormalLaw, NormalLawVisitor};
+use pulvis_contact::{ContactMemory, ContactModel, Memory, NormalLaw, NormalLawVisitor, resistance};
 use pulvis_math::{Lanes, Octet, Vector3};
 
 /// Eight contacts at a time.
 pub(crate) type Lane = Lanes<8>;
 
-/// The columns of a group's contact memory: the normal law's, then those that the composition needs.
+/// The columns of a group's contact memory: the normal law's, then those that the composition needs. A
+/// sliding spring, which most contacts have, stands where the type of the normal law says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Layout {
     touched: Option<usize>,
@@ -38,10 +39,10 @@ impl Layout {
             })
         };
         let laws = &model.composition;
-        let touched = place(laws.noncontact.remembers_touch(), 1);
         let sliding = place(laws.sliding.is_some(), 3);
         let rolling = place(laws.rolling.is_some(), 3);
         let torsion = place(laws.torsion.is_some(), 1);
+        let touched = place(laws.noncontact.remembers_touch(), 1);
         Self { touched, sliding, rolling, torsion, normal_columns, columns }
     }
 
@@ -67,26 +68,51 @@ impl Layout {
         }
     }
 
-    /// The memory of a block, read from its columns.
+    /// Where contacts of a level of resistance (see [`resistance`]) keep their sliding spring.
     #[inline(always)]
-    pub(crate) fn load<R: Octet, M: Memory<R>>(&self, columns: &[Lane]) -> ContactMemory<R, M> {
-        ContactMemory {
+    fn sliding<const RESISTANCE: u8>(&self, normal_columns: usize) -> Option<usize> {
+        match RESISTANCE {
+            resistance::NONE => None,
+            resistance::SLIDING => Some(normal_columns),
+            _ => self.sliding,
+        }
+    }
+
+    /// The memory of a block of contacts of a level of resistance, read from its columns.
+    #[inline(always)]
+    pub(crate) fn load<R: Octet, M: Memory<R>, const RESISTANCE: u8>(
+        &self,
+        columns: &[Lane],
+    ) -> ContactMemory<R, M> {
+        debug_assert!(columns.len() == self.columns && self.normal_columns == M::COLUMNS);
+        let mut memory = ContactMemory {
             normal: M::load(|column| R::load(&columns[column])),
             touched: load_number(self.touched, columns),
-            sliding: load_vector(self.sliding, columns),
-            rolling: load_vector(self.rolling, columns),
-            torsion: load_number(self.torsion, columns),
+            sliding: load_vector(self.sliding::<RESISTANCE>(M::COLUMNS), columns),
+            rolling: Vector3::zero(),
+            torsion: R::zero(),
+        };
+        if RESISTANCE == resistance::ALL {
+            memory.rolling = load_vector(self.rolling, columns);
+            memory.torsion = load_number(self.torsion, columns);
         }
+        memory
     }
 
     /// The memory of a block, written into its columns.
     #[inline(always)]
-    pub(crate) fn store<R: Octet, M: Memory<R>>(&self, memory: &ContactMemory<R, M>, columns: &mut [Lane]) {
+    pub(crate) fn store<R: Octet, M: Memory<R>, const RESISTANCE: u8>(
+        &self,
+        memory: &ContactMemory<R, M>,
+        columns: &mut [Lane],
+    ) {
         memory.normal.store(|column, value| value.store(&mut columns[column]));
         store_number(self.touched, memory.touched, columns);
-        store_vector(self.sliding, memory.sliding, columns);
-        store_vector(self.rolling, memory.rolling, columns);
-        store_number(self.torsion, memory.torsion, columns);
+        store_vector(self.sliding::<RESISTANCE>(M::COLUMNS), memory.sliding, columns);
+        if RESISTANCE == resistance::ALL {
+            store_vector(self.rolling, memory.rolling, columns);
+            store_number(self.torsion, memory.torsion, columns);
+        }
     }
 
     /// The columns of this layout filled from a contact remembered in another one: what both laws
@@ -148,6 +174,7 @@ fn store_vector<R: Octet>(place: Option<usize>, value: Vector3<R>, columns: &mut
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+    use pulvis_contact::normal::LudingMemory;
     use pulvis_contact::{ContactModel, Linear, Luding, SpringSlider};
 
     use super::*;
@@ -191,9 +218,9 @@ mod tests {
         });
         let layout = Layout::of(&model);
         let columns: Vec<Lane> = (0..4).map(|column| Lane::from([f64::from(column); 8])).collect();
-        let memory = layout.load::<Lane, pulvis_contact::normal::LudingMemory<Lane>>(&columns);
+        let memory = layout.load::<Lane, LudingMemory<Lane>, { resistance::SLIDING }>(&columns);
         let mut copy = vec![Lane::default(); 4];
-        layout.store(&memory, &mut copy);
+        layout.store::<_, _, { resistance::SLIDING }>(&memory, &mut copy);
         assert_eq!(copy, columns);
     }
 }

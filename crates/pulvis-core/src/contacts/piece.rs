@@ -152,7 +152,7 @@ impl Piece {
                     if gap < skin {
                         let record = memory.find(around.order[row], wall_partner(place), &group);
                         let sum = (row - self.rows.start) as u32;
-                        let candidate = Candidate { rows: [row as u32; 2], sums: [sum; 2], gap };
+                        let candidate = Candidate { rows: [row as u32, 0], sums: [sum, 0], gap };
                         group.push(&candidate, record.as_deref());
                     }
                 }

@@ -63,7 +63,7 @@ impl NormalLawVisitor for Looking<'_, '_> {
     type Output = ();
     fn visit<N: NormalLaw>(self, law: N) {
         let group = self.views.group;
-        for block in (0..group.first.len()).filter(|&block| group.live[block]) {
+        for block in (0..group.rows.len()).filter(|&block| group.live[block]) {
             for lane in 0..group.filled(block) {
                 if let Some(view) = self.views.look(&law, block, lane) {
                     (self.see)(&view);

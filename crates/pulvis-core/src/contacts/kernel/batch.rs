@@ -5,7 +5,7 @@ use std::mem::MaybeUninit;
 use pulvis_contact::{Composition, ContactEnergies, NormalLaw, Pair, PairMotion, resistance};
 use pulvis_math::{Octet, Quad, Row, Twin, Vector3};
 
-use super::super::block::WIDTH;
+use super::super::block::{Places, WIDTH};
 use super::super::layout::{Lane, Layout};
 use crate::particles::Load;
 use crate::shared::Shared;
@@ -92,8 +92,11 @@ impl<R: Octet> Batch<R> {
 
     /// Computes all blocks, updates their `memory`, and adds their energies to `energies` if the ledger is
     /// kept. Answers with the sum of the forces on the first bodies [N].
+    ///
+    /// # Safety
+    /// `memory` holds that of every block, as `response` lays it out.
     #[inline(always)]
-    pub(super) fn respond<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(
+    pub(super) unsafe fn respond<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(
         &mut self,
         response: &Response<N>,
         memory: &mut [Lane],
@@ -104,8 +107,10 @@ impl<R: Octet> Batch<R> {
         for place in 0..self.count {
             // SAFETY: the first `count` have been gathered.
             let gathered = unsafe { self.gathered[place].assume_init_ref() };
-            let memory = &mut memory[gathered.block * columns..(gathered.block + 1) * columns];
-            let mut before = response.layout.load::<R, N::Memory<R>>(memory);
+            // SAFETY: the caller's.
+            let memory =
+                unsafe { memory.get_unchecked_mut(gathered.block * columns..(gathered.block + 1) * columns) };
+            let mut before = response.layout.load::<R, N::Memory<R>, RESISTANCE>(memory);
             let answer = response.composition.respond::<R, N, RESISTANCE>(
                 &response.law,
                 &gathered.pair,
@@ -113,7 +118,7 @@ impl<R: Octet> Batch<R> {
                 response.time_step,
                 &mut before,
             );
-            response.layout.store(&before, memory);
+            response.layout.store::<R, N::Memory<R>, RESISTANCE>(&before, memory);
             self.answered[place].write(Answered {
                 force: answer.force,
                 torque_i: answer.torque_i,
@@ -127,16 +132,14 @@ impl<R: Octet> Batch<R> {
         total
     }
 
-    /// Adds the loads to `sums`, at the places `first` and, of pairs, `second` of each block; the batch is
-    /// empty afterwards.
+    /// Adds the loads to `sums`, at the `places` of each block; the batch is empty afterwards.
     ///
     /// # Safety
-    /// The places lie within the sums.
+    /// Every block has its places, and they lie within the sums.
     #[inline(always)]
     pub(super) unsafe fn add_up<const RESISTANCE: u8, const PAIRS: bool>(
         &mut self,
-        first: &[[u32; WIDTH]],
-        second: &[[u32; WIDTH]],
+        places: &[Places],
         sums: Shared<'_, Load>,
     ) {
         for place in 0..self.count {
@@ -144,12 +147,13 @@ impl<R: Octet> Batch<R> {
             let (block, answer) = unsafe {
                 (self.gathered[place].assume_init_ref().block, self.answered[place].assume_init_ref())
             };
-            let first = &first[block];
+            // SAFETY: the caller's.
+            let [first, second] = unsafe { &places.get_unchecked(block).0 };
             if RESISTANCE == resistance::NONE {
                 let forces = R::rows(columns_of(answer.force));
                 add_forces!(sums, first, plus, forces);
                 if PAIRS {
-                    add_forces!(sums, &second[block], minus, forces);
+                    add_forces!(sums, second, minus, forces);
                 }
                 continue;
             }
@@ -157,7 +161,7 @@ impl<R: Octet> Batch<R> {
             add_loads!(sums, first, plus, loads);
             if PAIRS {
                 let loads = R::twins(columns_of(answer.force), columns_of(answer.torque_j));
-                add_loads!(sums, &second[block], minus_plus, loads);
+                add_loads!(sums, second, minus_plus, loads);
             }
         }
         self.count = 0;

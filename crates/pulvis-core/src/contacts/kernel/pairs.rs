@@ -3,7 +3,7 @@
 use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance};
 use pulvis_math::{Kernel, Mask, Octet, Vector3};
 
-use super::super::block::filled_lanes;
+use super::super::block::{WIDTH, filled_lanes};
 use super::batch::{BATCH, Batch, Gathered, Response, gather};
 use super::{ContactTotals, Loop};
 use crate::shared::Shared;
@@ -53,7 +53,7 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
         let response = Response { law, composition, layout: group.layout, time_step: advance.time_step };
         let mut energies = ContactEnergies::<R>::default();
         let mut batch = Batch::<R>::new();
-        let blocks = group.first.len();
+        let (count, blocks) = (group.len(), group.rows.len());
         let mut next = 0;
         let a_batch = |rows: usize| (rows * BATCH).div_ceil(blocks).next_multiple_of(2);
         let counts = [a_batch(ahead.rows.len()), a_batch(ahead.halo.len())];
@@ -62,24 +62,26 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
             while next < blocks && !batch.is_full() {
                 let block = next;
                 next += 1;
-                if group.gap[block] > advance.closed && !group.live[block] {
+                // SAFETY (here and below): every block has its gap, its flag and its rows, and rows lie
+                // within the columns, as the caller of `sweep` vouches.
+                let live = unsafe { group.live.get_unchecked_mut(block) };
+                if unsafe { *group.gap.get_unchecked(block) } > advance.closed && !*live {
                     continue;
                 }
-                let (first, second) = (&group.first[block], &group.second[block]);
-                // SAFETY (here and below): rows lie within the columns, as the caller of `sweep` vouches.
+                let [first, second] = unsafe { &group.rows.get_unchecked(block).0 };
                 let (centre_i, radius_i) = unsafe { gather::<R>(moving.place, first) };
                 let (centre_j, radius_j) = unsafe { gather::<R>(moving.place, second) };
                 let separation = advance.images.nearest(centre_i - centre_j);
                 let distance = separation.norm();
                 let overlap = radius_i + radius_j - distance;
                 // Idle lanes are out of any reach.
-                let filled = filled_lanes::<R>(group.filled(block));
+                let filled = filled_lanes::<R>(count - block * WIDTH);
                 let overlap = R::select(filled, overlap, reach + reach - radius_i);
                 let acts = overlap.gt(reach).any();
-                if !acts && !group.live[block] {
+                if !acts && !*live {
                     continue;
                 }
-                group.live[block] = acts;
+                *live = acts;
                 let inverse_distance = R::one() / distance;
                 let (mid_i, inverse_mass_i) = unsafe { gather::<R>(moving.velocity_mid, first) };
                 let (mid_j, inverse_mass_j) = unsafe { gather::<R>(moving.velocity_mid, second) };
@@ -118,9 +120,9 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
                     },
                 });
             }
-            batch.respond::<N, RESISTANCE, LEDGER>(&response, &mut group.memory, &mut energies);
-            // SAFETY: as the caller of `sweep` vouches.
-            unsafe { batch.add_up::<RESISTANCE, true>(&group.first_sum, &group.second_sum, sums) };
+            // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.
+            unsafe { batch.respond::<N, RESISTANCE, LEDGER>(&response, &mut group.memory, &mut energies) };
+            unsafe { batch.add_up::<RESISTANCE, true>(&group.sums, sums) };
         }
         group.totals = ContactTotals { energies: energies.to_lanes(), force: Vector3::zero() };
     }

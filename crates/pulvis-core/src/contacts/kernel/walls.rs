@@ -3,7 +3,7 @@
 use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance};
 use pulvis_math::{Kernel, Mask, Octet, Vector3};
 
-use super::super::block::filled_lanes;
+use super::super::block::{WIDTH, filled_lanes};
 use super::batch::{Batch, Gathered, Response, gather};
 use super::{ContactTotals, Loop, WallMotionNow};
 use crate::shared::Shared;
@@ -43,7 +43,7 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
         let mut energies = ContactEnergies::<R>::default();
         let mut total = Vector3::<R>::zero();
         let mut batch = Batch::<R>::new();
-        let blocks = group.first.len();
+        let blocks = group.rows.len();
         let mut next = 0;
         while next < blocks {
             while next < blocks && !batch.is_full() {
@@ -52,11 +52,11 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
                 if group.gap[block] > advance.closed && !group.live[block] {
                     continue;
                 }
-                let rows = &group.first[block];
+                let [rows, _] = &group.rows[block].0;
                 // SAFETY (here and below): rows lie within the columns, as the caller of `sweep` vouches.
                 let (centre, radius) = unsafe { gather::<R>(moving.place, rows) };
                 let overlap = radius - (centre.dot(normal) - R::splat(wall.offset));
-                let valid = filled_lanes::<R>(group.filled(block));
+                let valid = filled_lanes::<R>(group.len() - block * WIDTH);
                 let overlap = R::select(valid, overlap, reach + reach - radius);
                 let acts = overlap.gt(reach).any();
                 if !acts && !group.live[block] {
@@ -86,10 +86,11 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
                 let pair = Pair::wall_from_inverses(inverse_mass, inverse_radius);
                 batch.push(Gathered { block, pair, motion });
             }
-            total +=
-                batch.respond::<N, { resistance::ALL }, true>(&response, &mut group.memory, &mut energies);
-            // SAFETY: as the caller of `sweep` vouches.
-            unsafe { batch.add_up::<{ resistance::ALL }, false>(&group.first_sum, &[], sums) };
+            // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.
+            total += unsafe {
+                batch.respond::<N, { resistance::ALL }, true>(&response, &mut group.memory, &mut energies)
+            };
+            unsafe { batch.add_up::<{ resistance::ALL }, false>(&group.sums, sums) };
         }
         let force = Vector3::new(total.x.sum_lanes(), total.y.sum_lanes(), total.z.sum_lanes());
         group.totals = ContactTotals { energies: energies.to_lanes(), force };
