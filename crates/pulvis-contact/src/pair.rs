@@ -49,6 +49,13 @@ impl<R: Real> Pair<R> {
         Self { inverse_reduced_mass: inverse_mass, mean_curvature: R::splat(0.5) * inverse_radius }
     }
 
+    /// Two spheres, from the sum of one over their masses [1/kg] and that of one over their radii [1/m]. The
+    /// same bits as of [`spheres`](Self::spheres).
+    #[inline(always)]
+    pub fn from_sums(inverse_masses: R, inverse_radii: R) -> Self {
+        Self { inverse_reduced_mass: inverse_masses, mean_curvature: R::splat(0.5) * inverse_radii }
+    }
+
     /// One pair a lane, from its index.
     pub fn from_lanes(pair: impl Fn(usize) -> Pair<f64>) -> Self {
         Self {

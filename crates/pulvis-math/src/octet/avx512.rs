@@ -162,6 +162,39 @@ fn high(pair: __m512d) -> Ymm {
     unsafe { Ymm(_mm512_extractf64x4_pd::<1>(pair)) }
 }
 
+/// Rows 0 and 4, 1 and 5, 2 and 6, 3 and 7 side by side: what follows acts on both halves alike.
+#[inline(always)]
+fn pairs(rows: [Ymm; 8]) -> [__m512d; 4] {
+    [joined(rows[0], rows[4]), joined(rows[1], rows[5]), joined(rows[2], rows[6]), joined(rows[3], rows[7])]
+}
+
+/// The columns of rows that stand in [`pairs`].
+#[inline(always)]
+fn columns_of_pairs([a, b, c, d]: [__m512d; 4]) -> [Zmm; 4] {
+    unsafe {
+        let (xz_ab, yw_ab) = (_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
+        let (xz_cd, yw_cd) = (_mm512_unpacklo_pd(c, d), _mm512_unpackhi_pd(c, d));
+        let first = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
+        let second = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+        [
+            Zmm(_mm512_permutex2var_pd(xz_ab, first, xz_cd)),
+            Zmm(_mm512_permutex2var_pd(yw_ab, first, yw_cd)),
+            Zmm(_mm512_permutex2var_pd(xz_ab, second, xz_cd)),
+            Zmm(_mm512_permutex2var_pd(yw_ab, second, yw_cd)),
+        ]
+    }
+}
+
+/// Two rows less two others, but for the scalars, which are added.
+#[inline(always)]
+fn vectors_less(ones: __m512d, others: __m512d) -> __m512d {
+    // Products with ±1 are exact: the same bits as of differences and sums.
+    unsafe {
+        let signs = _mm512_set_pd(1.0, -1.0, -1.0, -1.0, 1.0, -1.0, -1.0, -1.0);
+        _mm512_fmadd_pd(others, signs, ones)
+    }
+}
+
 #[inline(always)]
 fn lows(one: __m512d, other: __m512d) -> Quads {
     unsafe { Quads(_mm512_shuffle_f64x2::<0b01_00_01_00>(one, other)) }
@@ -206,23 +239,18 @@ impl Octet for Zmm {
 
     #[inline(always)]
     fn columns(rows: [Ymm; 8]) -> [Self; 4] {
-        unsafe {
-            // Rows 0 and 4, 1 and 5, ... side by side: what follows acts on both halves alike.
-            let (a, b) = (joined(rows[0], rows[4]), joined(rows[1], rows[5]));
-            let (c, d) = (joined(rows[2], rows[6]), joined(rows[3], rows[7]));
-            let (xz_ab, yw_ab) = (_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
-            let (xz_cd, yw_cd) = (_mm512_unpacklo_pd(c, d), _mm512_unpackhi_pd(c, d));
-            let first = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
-            let second = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
-            [
-                Self(_mm512_permutex2var_pd(xz_ab, first, xz_cd)),
-                Self(_mm512_permutex2var_pd(yw_ab, first, yw_cd)),
-                Self(_mm512_permutex2var_pd(xz_ab, second, xz_cd)),
-                Self(_mm512_permutex2var_pd(yw_ab, second, yw_cd)),
-            ]
-        }
+        columns_of_pairs(pairs(rows))
     }
-
+    #[inline(always)]
+    fn apart(ones: [Ymm; 8], others: [Ymm; 8]) -> [Self; 4] {
+        let ([a, b, c, d], other) = (pairs(ones), pairs(others));
+        columns_of_pairs([
+            vectors_less(a, other[0]),
+            vectors_less(b, other[1]),
+            vectors_less(c, other[2]),
+            vectors_less(d, other[3]),
+        ])
+    }
     #[inline(always)]
     fn rows(columns: [Self; 4]) -> [Ymm; 8] {
         let [rows_0_4, rows_1_5, rows_2_6, rows_3_7] = pairs_of_rows(columns);

@@ -108,6 +108,13 @@ pub trait Octet: Real {
     }
     /// The columns of eight rows: x, y, z and the scalar of each.
     fn columns(rows: [Self::Row; 8]) -> [Self; 4];
+    /// The columns of two times eight rows against each other: the differences of x, y and z, and the sum
+    /// of the scalars.
+    #[inline(always)]
+    fn apart(ones: [Self::Row; 8], others: [Self::Row; 8]) -> [Self; 4] {
+        let ([x, y, z, scalar], other) = (Self::columns(ones), Self::columns(others));
+        [x - other[0], y - other[1], z - other[2], scalar + other[3]]
+    }
     /// The rows of four columns.
     fn rows(columns: [Self; 4]) -> [Self::Row; 8];
     /// The rows of two times four columns, side by side.

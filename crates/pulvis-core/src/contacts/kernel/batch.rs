@@ -175,8 +175,33 @@ impl<R: Octet> Batch<R> {
 #[inline(always)]
 pub(super) unsafe fn gather<R: Octet>(column: Shared<'_, Quad>, rows: &[u32; WIDTH]) -> (Vector3<R>, R) {
     // SAFETY: the caller's.
-    let [x, y, z, scalar] = unsafe {
-        R::columns([
+    let [x, y, z, scalar] = R::columns(unsafe { load::<R>(column, rows) });
+    (Vector3::new(x, y, z), scalar)
+}
+
+/// The vectors of eight rows less those of eight others, and the sums of the scalars.
+///
+/// # Safety
+/// The rows lie within the column, and nobody writes them meanwhile.
+#[inline(always)]
+pub(super) unsafe fn gather_apart<R: Octet>(
+    column: Shared<'_, Quad>,
+    [ones, others]: &[[u32; WIDTH]; 2],
+) -> (Vector3<R>, R) {
+    // SAFETY: the caller's.
+    let [x, y, z, scalar] = unsafe { R::apart(load::<R>(column, ones), load::<R>(column, others)) };
+    (Vector3::new(x, y, z), scalar)
+}
+
+/// Eight rows.
+///
+/// # Safety
+/// The rows lie within the column, and nobody writes them meanwhile.
+#[inline(always)]
+unsafe fn load<R: Octet>(column: Shared<'_, Quad>, rows: &[u32; WIDTH]) -> [R::Row; WIDTH] {
+    // SAFETY: the caller's.
+    unsafe {
+        [
             R::Row::load(column.get_at_number(rows[0])),
             R::Row::load(column.get_at_number(rows[1])),
             R::Row::load(column.get_at_number(rows[2])),
@@ -185,9 +210,8 @@ pub(super) unsafe fn gather<R: Octet>(column: Shared<'_, Quad>, rows: &[u32; WID
             R::Row::load(column.get_at_number(rows[5])),
             R::Row::load(column.get_at_number(rows[6])),
             R::Row::load(column.get_at_number(rows[7])),
-        ])
-    };
-    (Vector3::new(x, y, z), scalar)
+        ]
+    }
 }
 
 /// The columns of a vector; the scalars are zero.

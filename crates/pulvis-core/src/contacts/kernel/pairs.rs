@@ -4,7 +4,7 @@ use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, PairMot
 use pulvis_math::{Kernel, Mask, Octet, Vector3};
 
 use super::super::block::{WIDTH, filled_lanes};
-use super::batch::{BATCH, Batch, Gathered, Response, gather};
+use super::batch::{BATCH, Batch, Gathered, Response, gather, gather_apart};
 use super::{ContactTotals, Loop};
 use crate::shared::Shared;
 
@@ -68,7 +68,8 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
                 if unsafe { *group.gap.get_unchecked(block) } > advance.closed && !*live {
                     continue;
                 }
-                let [first, second] = unsafe { &group.rows.get_unchecked(block).0 };
+                let rows = unsafe { &group.rows.get_unchecked(block).0 };
+                let [first, second] = rows;
                 let (centre_i, radius_i) = unsafe { gather::<R>(moving.place, first) };
                 let (centre_j, radius_j) = unsafe { gather::<R>(moving.place, second) };
                 let separation = advance.images.nearest(centre_i - centre_j);
@@ -83,10 +84,8 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
                 }
                 *live = acts;
                 let inverse_distance = R::one() / distance;
-                let (mid_i, inverse_mass_i) = unsafe { gather::<R>(moving.velocity_mid, first) };
-                let (mid_j, inverse_mass_j) = unsafe { gather::<R>(moving.velocity_mid, second) };
-                let (velocity_i, inverse_radius_i) = unsafe { gather::<R>(moving.velocity, first) };
-                let (velocity_j, inverse_radius_j) = unsafe { gather::<R>(moving.velocity, second) };
+                let (velocity_mid, inverse_mass) = unsafe { gather_apart::<R>(moving.velocity_mid, rows) };
+                let (velocity, twice_curvature) = unsafe { gather_apart::<R>(moving.velocity, rows) };
                 let (mut spin_i_mid, mut spin_j_mid) = (Vector3::zero(), Vector3::zero());
                 let (mut spin_i, mut spin_j) = (Vector3::zero(), Vector3::zero());
                 if RESISTANCE != resistance::NONE {
@@ -99,20 +98,15 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
                 }
                 batch.push(Gathered {
                     block,
-                    pair: Pair::spheres_from_inverses(
-                        inverse_mass_i,
-                        inverse_mass_j,
-                        inverse_radius_i,
-                        inverse_radius_j,
-                    ),
+                    pair: Pair::from_sums(inverse_mass, twice_curvature),
                     motion: PairMotion {
                         normal: separation * inverse_distance,
                         overlap,
                         inverse_distance,
                         radius_i,
                         radius_j,
-                        velocity: velocity_i - velocity_j,
-                        velocity_mid: mid_i - mid_j,
+                        velocity,
+                        velocity_mid,
                         spin_i,
                         spin_j,
                         spin_i_mid,
