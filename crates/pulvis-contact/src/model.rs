@@ -249,9 +249,15 @@ impl Composition {
         let elastic = law.respond(pair, overlap, &mut memory.normal);
         let attraction = self.noncontact.respond(motion.overlap, &mut memory.touched);
         let closing_rate = -motion.velocity.dot(motion.normal);
-        let dashpot = law.dashpot(pair) + self.viscosity.coefficient(pair, overlap, &elastic);
+        let mut dashpot = law.dashpot(pair);
+        if !matches!(self.viscosity, Viscosity::None(_)) {
+            dashpot += self.viscosity.coefficient(pair, overlap, &elastic);
+        }
         let viscous = (dashpot * closing_rate).keep_where(touching);
-        let normal_force = elastic.force + viscous + attraction.force;
+        let mut normal_force = elastic.force + viscous;
+        if !matches!(self.noncontact, NonContact::None(_)) {
+            normal_force += attraction.force;
+        }
 
         let mut response = ContactResponse {
             normal_force,

@@ -53,10 +53,10 @@ impl<'a, R: Real> Resistance<'a, R> {
         let touching = motion.overlap.gt(R::zero());
         let overlap = motion.overlap.keep_where(touching);
         let dt = R::splat(time_step);
-        let closing = -motion.velocity_mid.dot(motion.normal);
-        let sideways = motion.velocity_mid + motion.normal * closing;
+        let opening = motion.velocity_mid.dot(motion.normal);
+        let sideways = motion.velocity_mid - motion.normal * opening;
         // A contact that began within the step has moved for a part of the step only. Few do.
-        let approach = closing * dt;
+        let approach = opening * R::splat(-time_step);
         let began = touching & overlap.lt(approach);
         let mut elapsed = dt;
         if began.any() {
@@ -72,9 +72,9 @@ impl<'a, R: Real> Resistance<'a, R> {
             touching,
             friction_reference: friction_reference.keep_where(touching),
             overlap,
-            overlap_mid: overlap - half * closing,
+            overlap_mid: overlap + half * opening,
             normal_mid: motion.normal - sideways * half_turn,
-            sideways_mid: sideways * (R::one() - half_turn * closing),
+            sideways_mid: sideways * (R::one() + half_turn * opening),
             elapsed,
             missed: dt - elapsed,
         }
@@ -100,10 +100,11 @@ impl<'a, R: Real> Resistance<'a, R> {
         let spins_mid = motion.spin_i_mid * mid_i + motion.spin_j_mid * mid_j;
         let velocity_mid = self.sideways_mid + self.normal_mid.cross(spins_mid);
         let answer = self.stretch(slider, velocity, velocity_mid, spring);
-        let moment = normal.cross(answer.force);
+        let moment = answer.force.cross(normal);
         response.force += answer.force;
-        response.torque_i -= moment * arm_i;
-        response.torque_j -= moment * arm_j;
+        // Sliding comes first: there are no other torques yet.
+        response.torque_i = moment * arm_i;
+        response.torque_j = moment * arm_j;
         let energies = &mut response.energies;
         energies.elastic_sliding = answer.stored_energy;
         energies.dissipated_sliding = answer.dissipated_slip;
@@ -218,15 +219,15 @@ impl<'a, R: Real> Resistance<'a, R> {
         answer
     }
 
-    /// The distances of the contact point from the two centres [m].
+    /// The distances of the contact point from the two centres [m]. That from a wall means nothing, but is
+    /// not positive.
     #[inline(always)]
     fn arms(&self, overlap: R) -> (R, R) {
         let (radius_i, radius_j) = (self.motion.radius_i, self.motion.radius_j);
         match self.conventions.lever_arm {
             LeverArm::Corrected => {
                 let half = R::splat(0.5) * overlap;
-                // A wall has no arm that could be shortened.
-                (radius_i - half, radius_j - half.keep_where(radius_j.gt(R::zero())))
+                (radius_i - half, radius_j - half)
             }
             LeverArm::Radius => (radius_i, radius_j),
         }

@@ -74,7 +74,7 @@ pub(crate) fn twisted<R: Real>(
 }
 
 /// Beyond this t, √(1 + t) is not taken from its series.
-const SERIES_ENDS: f64 = 1e-4;
+const SERIES_ENDS: f64 = 8e-6;
 
 /// A spring stretched, or shortened, to the length before projection: the square of its length has lost
 /// `missing`. The factor is √(1 + t), t = missing/|spring|², and normals turn little in a step.
@@ -83,18 +83,13 @@ const SERIES_ENDS: f64 = 1e-4;
 #[inline(always)]
 fn restored<R: Real>(spring: Vector3<R>, missing: R) -> Vector3<R> {
     let remaining = spring.norm_squared();
-    // Up to t = 2⁻⁵³ the factor is 1 to the last digit: no division. No spring: no factor.
-    let stretches = missing.abs().gt(remaining * R::splat(0.5 * f64::EPSILON)) & remaining.gt(R::zero());
-    let mut factor = R::one();
-    if stretches.any() {
-        let t = missing / remaining;
-        // The next term, −5 t⁴/128, is below 2⁻⁵⁴.
-        let series = R::one() + t * (R::splat(0.5) + t * (R::splat(-0.125) + t * R::splat(0.0625)));
-        factor = R::select(stretches, series, factor);
-        let far = stretches & t.abs().gt(R::splat(SERIES_ENDS));
-        if far.any() {
-            factor = R::select(far, (R::one() + t).sqrt(), factor);
-        }
+    // No spring: no factor.
+    let t = (missing / remaining).keep_where(remaining.gt(R::zero()));
+    // The next term, t³/16, is below 2⁻⁵⁴.
+    let mut factor = R::one() + t * (R::splat(0.5) - t * R::splat(0.125));
+    let far = t.abs().gt(R::splat(SERIES_ENDS));
+    if far.any() {
+        factor = R::select(far, (R::one() + t).sqrt(), factor);
     }
     spring * factor
 }

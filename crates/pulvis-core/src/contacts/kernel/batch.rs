@@ -13,7 +13,7 @@ use crate::shared::Shared;
 /// Blocks that are gathered before any of them is computed, and computed before any of them is added
 /// up. A block takes more instructions than a processor looks ahead; short loops one after the other
 /// let it work on several blocks at a time, and need fewer registers.
-pub(super) const BATCH: usize = 4;
+pub(super) const BATCH: usize = 2;
 
 /// A block that has been gathered.
 #[derive(Clone, Copy)]
