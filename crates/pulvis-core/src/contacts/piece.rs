@@ -43,10 +43,20 @@ pub(crate) struct Piece {
     pub(crate) halo: Vec<u32>,
     /// Parts of the halos of earlier pieces that are rows of this one.
     pub(crate) incoming: Vec<Incoming>,
+    /// How far the bodies of its contacts have moved.
+    pub(crate) closed: Closed,
     /// Time spent on its contacts since it was listed.
     pub(crate) phases: Phases,
     /// Later pieces that wait for this one.
     pub(crate) dependents: Vec<u32>,
+}
+
+/// By how much gaps can have closed since candidates were listed [m]: those between the particles that
+/// contacts of a piece are of, and those between its rows and walls.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Closed {
+    pub(crate) pairs: f64,
+    pub(crate) walls: f64,
 }
 
 /// A part of an earlier piece's halo.
@@ -69,6 +79,7 @@ impl Piece {
         let mut spare = std::mem::take(&mut self.groups);
         self.incoming.clear();
         self.dependents.clear();
+        self.closed = Closed::default();
         self.phases = Phases::default();
         self.list_pairs(around, grid, memory, &mut spare);
         self.list_walls(around, memory, &mut spare);

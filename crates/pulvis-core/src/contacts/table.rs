@@ -9,10 +9,10 @@ use pulvis_math::{InstructionSet, Lanes, Vector3};
 use super::Interactions;
 use super::block::{ContactGroup, Partner};
 use super::kernel::{self, Advance, Ahead, Moving, WallMotionNow};
-use super::piece::{Incoming, Piece, cut};
+use super::piece::{Closed, Incoming, Piece, cut};
 use super::rebuild::MemoryStore;
 use crate::domain::Images;
-use crate::neighbours::CellGrid;
+use crate::neighbours::{CellGrid, Moved};
 use crate::particles::{Load, MaterialIndex, Particles};
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
@@ -158,6 +158,16 @@ impl ContactTable {
         rows + self.halos.len()
     }
 
+    /// Takes in how far the rows of every piece, and walls, have moved since the candidates were listed [m].
+    pub(crate) fn close_gaps(&mut self, moved: impl Fn(usize) -> Moved, walls: f64) {
+        for (number, piece) in self.pieces.iter_mut().enumerate() {
+            let own = moved(number);
+            let others = piece.dependents.iter().map(|&other| moved(other as usize).longest);
+            piece.closed =
+                Closed { pairs: own.longest + others.fold(own.second, f64::max), walls: own.longest + walls };
+        }
+    }
+
     /// Computes the loads of all contacts. When those on the rows of a piece are complete, and nobody
     /// uses these rows any more, `finish` is called with the number of the piece, its rows and the loads.
     pub(crate) fn sweep(
@@ -188,7 +198,7 @@ impl ContactTable {
             // SAFETY: every member has sums of its own.
             let sums = unsafe { scratch.get_mut(member) };
             // SAFETY: nobody looks at a piece before it has counted down below.
-            let Piece { rows, groups, phases, .. } = unsafe { pieces.get_mut(number) };
+            let Piece { rows, groups, phases, closed, .. } = unsafe { pieces.get_mut(number) };
             sums.clear();
             sums.resize(rows.len() + halos.of(number).len(), Load::default());
             let mut clock = Stopwatch::start(advance.timed);
@@ -200,7 +210,7 @@ impl ContactTable {
                 };
                 // SAFETY: rows and places were listed for these columns and sums. `finish`, which writes
                 // rows, is not called for rows of this piece or its halo before it has counted down.
-                unsafe { kernel::sweep(group, sums, moving, walls, advance, ahead) };
+                unsafe { kernel::sweep(group, sums, moving, walls, advance, *closed, ahead) };
                 clock.lap(match group.partner {
                     Partner::Particle => &mut phases.pairs,
                     Partner::Wall(_) => &mut phases.walls,

@@ -11,6 +11,48 @@ pub(crate) struct Skin {
     walls: Vec<f64>,
 }
 
+/// The longest and the second longest way of any particle since it was listed: no gap between two
+/// particles has closed by more than their sum.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Moved {
+    pub(crate) longest: f64,
+    pub(crate) second: f64,
+}
+
+impl Moved {
+    /// Takes in one more way; one that is no number counts as infinite.
+    #[inline(always)]
+    pub(crate) fn take_in(&mut self, way: f64) {
+        // Not `>`: a NaN must not be passed over.
+        if !(way <= self.second) {
+            let way = if way.is_nan() { f64::INFINITY } else { way };
+            self.second = way.min(self.longest);
+            self.longest = way.max(self.longest);
+        }
+    }
+
+    /// The same of the roots of the ways, which were squares.
+    #[inline(always)]
+    pub(crate) fn root(self) -> Self {
+        Self { longest: self.longest.sqrt(), second: self.second.sqrt() }
+    }
+
+    /// By how much a gap between two of these particles can have closed.
+    pub(crate) fn closed(self) -> f64 {
+        self.longest + self.second
+    }
+
+    /// The same for all particles of several sets.
+    pub(crate) fn of_all(sets: impl Iterator<Item = Self>) -> Self {
+        let mut all = Self::default();
+        for set in sets {
+            all.take_in(set.longest);
+            all.take_in(set.second);
+        }
+        all
+    }
+}
+
 /// Whether a new list is needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Outdated {
@@ -36,12 +78,9 @@ impl Skin {
         &self.places
     }
 
-    /// By how much a gap can have closed since the list was made [m], if no particle has moved farther
-    /// than the root of `farthest` [m²].
-    pub(crate) fn closed(&self, farthest: f64, wall_offsets: impl Iterator<Item = f64>) -> f64 {
-        let moved = farthest.sqrt();
-        let walls = wall_offsets.zip(&self.walls).map(|(now, before)| (now - before).abs());
-        moved + walls.fold(moved, f64::max)
+    /// The longest way of any wall since the list was made [m].
+    pub(crate) fn moved_walls(&self, offsets: impl Iterator<Item = f64>) -> f64 {
+        offsets.zip(&self.walls).map(|(now, before)| (now - before).abs()).fold(0.0, f64::max)
     }
 
     /// Whether the list still holds: a gap that has closed by more than a skin may be that of two
@@ -64,17 +103,31 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_two_longest_ways_are_kept_in_any_order() {
+        for ways in [[1.0, 2.0, 3.0], [3.0, 2.0, 1.0], [2.0, 3.0, 1.0], [3.0, 1.0, 2.0]] {
+            let mut moved = Moved::default();
+            ways.into_iter().for_each(|way| moved.take_in(way));
+            assert_eq!(moved, Moved { longest: 3.0, second: 2.0 });
+            moved.take_in(f64::NAN);
+            assert_eq!(moved, Moved { longest: f64::INFINITY, second: 3.0 });
+        }
+    }
+
+    #[test]
     fn a_list_is_out_of_date_when_two_bodies_can_have_come_closer_by_a_skin() {
         let mut skin = Skin { thickness: 0.2, ..Skin::default() };
         let start = vec![Quad::default(); 2];
         skin.renew(&start, [0.0].into_iter());
-        let outdated = |farthest: f64, wall: f64, places: &[Quad]| {
-            skin.outdated(skin.closed(farthest * farthest, [wall].into_iter()), places)
+        let outdated = |ways: [f64; 2], wall: f64, places: &[Quad]| {
+            let moved = Moved::of_all(ways.map(|way| Moved { longest: way, second: 0.0 }).into_iter());
+            let closed = moved.closed().max(moved.longest + skin.moved_walls([wall].into_iter()));
+            skin.outdated(closed, places)
         };
-        assert_eq!(outdated(0.09, 0.09, &start), Outdated::No);
-        assert_eq!(outdated(0.09, 0.12, &start), Outdated::Yes);
-        assert_eq!(outdated(0.11, 0.0, &start), Outdated::Yes);
+        assert_eq!(outdated([0.09, 0.09], 0.09, &start), Outdated::No);
+        assert_eq!(outdated([0.0, 0.19], 0.0, &start), Outdated::No);
+        assert_eq!(outdated([0.09, 0.02], 0.12, &start), Outdated::Yes);
+        assert_eq!(outdated([0.11, 0.10], 0.0, &start), Outdated::Yes);
         let lost = [Quad::new(Vector3::new(0.0, f64::NAN, 0.0), 1.0), Quad::default()];
-        assert_eq!(outdated(f64::INFINITY, 0.0, &lost), Outdated::Lost(0));
+        assert_eq!(outdated([0.0, f64::NAN], 0.0, &lost), Outdated::Lost(0));
     }
 }

@@ -13,6 +13,7 @@ use pulvis_math::{InstructionSet, Quad, Vector3};
 use crate::background::Background;
 use crate::contacts::{ContactTable, Interactions, MemoryStore, WallMotionNow};
 use crate::domain::Domain;
+use crate::integrator::Kicked;
 use crate::ledger::Running;
 use crate::neighbours::Skin;
 use crate::particles::{MaterialIndex, Particle, Particles};
@@ -77,10 +78,8 @@ pub struct Simulation {
 /// What comes out of the integration of a piece of rows.
 #[derive(Clone, Copy, Debug, Default)]
 struct Outcome {
-    /// Power that the drag takes [W].
-    power: f64,
-    /// Largest square of the distance of any particle from where it was listed [m²].
-    farthest: f64,
+    /// What the last kicks gave.
+    kicked: Kicked,
     /// Time spent since the candidates were listed [s].
     seconds: f64,
 }

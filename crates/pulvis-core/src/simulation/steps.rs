@@ -4,8 +4,8 @@ use pulvis_math::Vector3;
 
 use super::{Outcome, Simulation, StepError};
 use crate::contacts::{Advance, Sweep};
-use crate::integrator::{Columns, Kick, KickAndDrift, Step};
-use crate::neighbours::Outdated;
+use crate::integrator::{Columns, Kicks, Step};
+use crate::neighbours::{Moved, Outdated};
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
 use crate::walls::Wall;
@@ -29,13 +29,12 @@ impl Simulation {
         if steps == 0 {
             return Ok(());
         }
-        let mut farthest = self.kick_and_drift();
+        self.kick_and_drift();
         for left in (0..steps).rev() {
             self.move_walls();
             self.step += 1;
-            let closed = self.renew_if_outdated(farthest)?;
-            let background_power;
-            (background_power, farthest) = self.forces_and_kick(closed, false, left > 0);
+            self.renew_if_outdated()?;
+            let background_power = self.forces_and_kick(false, left > 0);
             self.finish_walls();
             self.time += self.time_step;
             self.running.take_in(self.contacts.energies(), background_power, self.time_step);
@@ -43,40 +42,45 @@ impl Simulation {
         Ok(())
     }
 
-    /// First half kick and drift. Answers with the largest square of the distance of any particle from
-    /// where it was listed [m²].
-    fn kick_and_drift(&mut self) -> f64 {
+    /// First half kick and drift.
+    fn kick_and_drift(&mut self) {
         let pieces = self.contacts.pieces();
-        let (instructions, step) = (self.instructions, self.step_of_rows());
+        let (instructions, step) = (self.instructions, self.step_of_rows(self.time_step));
         let columns = Columns::of(&mut self.particles, self.skin.listed());
-        let timed = self.phases.is_some();
+        let (background, timed) = (&self.background, self.phases.is_some());
         self.team.for_each(&mut self.outcomes, |number, outcome| {
             let mut clock = Stopwatch::start(timed);
             let rows = pieces[number].rows.clone();
             // SAFETY: pieces have different rows.
-            outcome.farthest = unsafe {
+            outcome.kicked = unsafe {
                 let loads = columns.loads.range_mut(rows.clone());
-                instructions.run(KickAndDrift::new(columns, rows, loads, step))
+                instructions.run(Kicks::<false, true>::new(columns, rows, loads, background, step))
             };
             clock.lap(&mut outcome.seconds);
         });
-        farthest(&self.outcomes)
     }
 
-    fn step_of_rows(&self) -> Step {
+    fn step_of_rows(&self, time_step: f64) -> Step {
         let turning = self.interactions.models().any(|model| model.composition.has_resistance_dashpot());
-        Step { time_step: self.time_step, predicts_spins: turning || self.background.has_drag() }
+        Step { time_step, predicts_spins: turning || self.background.has_drag() }
     }
 
-    /// Lists the candidates anew if particles have moved too far, the square of the longest way being
-    /// `farthest` [m²]. Answers by how much a gap can have closed since they were listed [m].
-    fn renew_if_outdated(&mut self, farthest: f64) -> Result<f64, StepError> {
-        let closed = self.skin.closed(farthest, self.walls.iter().map(Wall::offset));
+    /// Lists the candidates anew if particles have moved too far; otherwise tells the contacts by how much
+    /// gaps can have closed.
+    fn renew_if_outdated(&mut self) -> Result<(), StepError> {
+        let moved = |outcome: &Outcome| outcome.kicked.moved;
+        let walls = self.skin.moved_walls(self.walls.iter().map(Wall::offset));
+        let all = Moved::of_all(self.outcomes.iter().map(moved));
+        let closed = all.closed().max(all.longest + walls);
         match self.skin.outdated(closed, &self.particles.place) {
-            Outdated::No => Ok(closed),
+            Outdated::No => {
+                let outcomes = &self.outcomes;
+                self.contacts.close_gaps(|piece| moved(&outcomes[piece]), walls);
+                Ok(())
+            }
             Outdated::Yes => {
                 self.renew_candidates();
-                Ok(0.0)
+                Ok(())
             }
             Outdated::Lost(row) => {
                 let id = self.particles.id[row];
@@ -109,12 +113,10 @@ impl Simulation {
     }
 
     /// Forces and torques of all contacts and of the background, and the second half kick; with
-    /// `onwards` also the first half kick and the drift of the next step. `closed` is by how much a gap
-    /// can have closed since the candidates were listed [m]; `at_rest` no time has passed.
+    /// `onwards` also the first half kick and the drift of the next step. `at_rest` no time has passed.
     ///
-    /// Answers with the drag's power [W] and the largest square of the distance of any particle from
-    /// where it was listed [m²]; each wall's force on the particles is left in its place.
-    fn forces_and_kick(&mut self, closed: f64, at_rest: bool, onwards: bool) -> (f64, f64) {
+    /// Answers with the drag's power [W]; each wall's force on the particles is left in its place.
+    fn forces_and_kick(&mut self, at_rest: bool, onwards: bool) -> f64 {
         self.walls_now.clear();
         for (wall, state) in self.walls.iter().zip(&self.wall_states) {
             let motion = if at_rest { state.motion_at_rest(wall) } else { state.motion_now(wall) };
@@ -122,14 +124,13 @@ impl Simulation {
         }
         let time_step = if at_rest { 0.0 } else { self.time_step };
         let advance = Advance {
-            closed,
             time_step,
             timed: self.phases.is_some(),
             images: self.domain.images(),
             ledger: self.accounting,
             instructions: self.instructions,
         };
-        let step = self.step_of_rows();
+        let step = self.step_of_rows(time_step);
         let columns = Columns::of(&mut self.particles, self.skin.listed());
         let (instructions, background) = (self.instructions, &self.background);
         let outcomes = Shared::new(&mut self.outcomes);
@@ -145,20 +146,17 @@ impl Simulation {
             unsafe {
                 let outcome = outcomes.get_mut(number);
                 let mut clock = Stopwatch::start(advance.timed);
-                let half = 0.5 * time_step;
-                let kick = Kick::new(columns, rows.clone(), &mut *loads, background, half);
-                outcome.power = instructions.run(kick);
-                if onwards {
-                    let drift = KickAndDrift::new(columns, rows, loads, step);
-                    outcome.farthest = instructions.run(drift);
-                }
+                outcome.kicked = if onwards {
+                    instructions.run(Kicks::<true, true>::new(columns, rows, loads, background, step))
+                } else {
+                    instructions.run(Kicks::<true, false>::new(columns, rows, loads, background, step))
+                };
                 clock.lap(&mut outcome.seconds);
             }
         });
         self.on_particles.fill(Vector3::zero());
         self.contacts.add_wall_forces(&mut self.on_particles);
-        let power = self.outcomes.iter().map(|outcome| outcome.power).sum();
-        (power, farthest(&self.outcomes))
+        self.outcomes.iter().map(|outcome| outcome.kicked.power).sum()
     }
 
     /// Forces of the present state, without a step having led here; switches nothing in memory but
@@ -172,15 +170,12 @@ impl Simulation {
             predicted.vector = now.vector;
         }
         // No block is passed over: whatever was switched may act at once.
-        let (background_power, _) = self.forces_and_kick(f64::INFINITY, true, false);
+        let anywhere = Moved { longest: f64::INFINITY, second: f64::INFINITY };
+        self.contacts.close_gaps(|_| anywhere, f64::INFINITY);
+        let background_power = self.forces_and_kick(true, false);
         self.running.take_in(self.contacts.energies(), background_power, 0.0);
         for (state, &force) in self.wall_states.iter_mut().zip(&self.on_particles) {
             state.force = -force;
         }
     }
-}
-
-/// The largest of the pieces' squares of distances [m²].
-fn farthest(outcomes: &[Outcome]) -> f64 {
-    outcomes.iter().map(|outcome| outcome.farthest).fold(0.0, f64::max)
 }

@@ -13,6 +13,7 @@ use self::pairs::PairSweep;
 use self::walls::WallSweep;
 use super::block::{ContactGroup, Partner};
 use super::layout::Lane;
+use super::piece::Closed;
 use crate::domain::Images;
 use crate::particles::Load;
 use crate::shared::Shared;
@@ -62,12 +63,9 @@ pub(crate) struct ContactTotals {
     pub(crate) force: Vector3,
 }
 
-/// How far bodies have moved since the candidates were listed, over which step, and how the loop is to
-/// run.
+/// Over which step bodies have moved, and how the loop is to run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Advance {
-    /// By how much a gap can have closed at the most [m].
-    pub(crate) closed: f64,
     /// The step that led to the present positions [s].
     pub(crate) time_step: f64,
     /// The nearest-image rule.
@@ -91,11 +89,16 @@ pub(crate) unsafe fn sweep(
     moving: Moving<'_>,
     walls: &[WallMotionNow],
     advance: &Advance,
+    closed: Closed,
     ahead: Ahead<'_>,
 ) {
     let normal = group.model.normal;
     let partner = group.partner;
-    let contacts = Loop { group, sums, moving, advance, ahead };
+    let closed = match partner {
+        Partner::Particle => closed.pairs,
+        Partner::Wall(_) => closed.walls,
+    };
+    let contacts = Loop { group, sums, moving, advance, closed, ahead };
     match partner {
         Partner::Particle => normal.accept(PairSweep(contacts)),
         Partner::Wall(place) => normal.accept(WallSweep(contacts, walls[place])),
@@ -108,6 +111,8 @@ struct Loop<'a> {
     sums: &'a mut [Load],
     moving: Moving<'a>,
     advance: &'a Advance,
+    /// By how much a gap can have closed at the most since the candidates were listed [m].
+    closed: f64,
     ahead: Ahead<'a>,
 }
 

@@ -44,7 +44,7 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
 
     #[inline(always)]
     fn run<R: Octet>(self) {
-        let Self { law, contacts: Loop { group, sums, moving, advance, mut ahead } } = self;
+        let Self { law, contacts: Loop { group, sums, moving, advance, closed, mut ahead } } = self;
         let sums = Shared::new(sums);
         // By value: not to be read anew after every store.
         let (composition, advance) = (group.model.composition, *advance);
@@ -65,7 +65,7 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
                 // SAFETY (here and below): every block has its gap, its flag and its rows, and rows lie
                 // within the columns, as the caller of `sweep` vouches.
                 let live = unsafe { group.live.get_unchecked_mut(block) };
-                if unsafe { *group.gap.get_unchecked(block) } > advance.closed && !*live {
+                if unsafe { *group.gap.get_unchecked(block) } > closed && !*live {
                     continue;
                 }
                 let rows = unsafe { &group.rows.get_unchecked(block).0 };

@@ -31,7 +31,7 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
 
     #[inline(always)]
     fn run<R: Octet>(self) {
-        let Self { law, contacts: Loop { group, sums, moving, advance, .. }, wall } = self;
+        let Self { law, contacts: Loop { group, sums, moving, advance, closed, .. }, wall } = self;
         let sums = Shared::new(sums);
         let (composition, advance) = (group.model.composition, *advance);
         let turning_dashpots = composition.has_resistance_dashpot();
@@ -49,7 +49,7 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
             while next < blocks && !batch.is_full() {
                 let block = next;
                 next += 1;
-                if group.gap[block] > advance.closed && !group.live[block] {
+                if group.gap[block] > closed && !group.live[block] {
                     continue;
                 }
                 let [rows, _] = &group.rows[block].0;
