@@ -19,8 +19,8 @@ const PIECES: usize = 8;
 
 /// Candidates are sorted into blocks by their gap over the skin, up to these bounds: what touches now
 /// fills whole blocks, and blocks of what is far apart are passed over until something has moved.
-const GAP_CLASSES: [f64; CLASSES] = [0.05, 0.4, f64::INFINITY];
-const CLASSES: usize = 3;
+const GAP_CLASSES: [f64; CLASSES] = [0.01, 0.06, 0.3, f64::INFINITY];
+const CLASSES: usize = 4;
 
 /// Two rows near each other, the lower one first, and the gap between their reaches [m].
 #[derive(Clone, Copy, Debug)]
