@@ -15,18 +15,24 @@ impl NormalLawVisitor for WallSweep<'_> {
     type Output = ();
     fn visit<N: NormalLaw>(self, law: N) {
         let Self(contacts, wall) = self;
-        contacts.advance.instructions.run(WallLoop { law, contacts, wall });
+        let (level, set) =
+            (contacts.group.model.composition.resistance_level(), contacts.advance.instructions);
+        match level {
+            resistance::NONE => set.run(WallLoop::<N, { resistance::NONE }> { law, contacts, wall }),
+            resistance::SLIDING => set.run(WallLoop::<N, { resistance::SLIDING }> { law, contacts, wall }),
+            _ => set.run(WallLoop::<N, { resistance::ALL }> { law, contacts, wall }),
+        }
     }
 }
 
-/// Walls have few contacts: one loop for all resistances serves.
-struct WallLoop<'a, N> {
+/// Walls have few contacts: their energies are always accounted for.
+struct WallLoop<'a, N, const RESISTANCE: u8> {
     law: N,
     contacts: Loop<'a>,
     wall: WallMotionNow,
 }
 
-impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
+impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> {
     type Output = ();
 
     #[inline(always)]
@@ -65,10 +71,12 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
                 group.live[block] = acts;
                 let (mid, inverse_mass) = unsafe { gather::<R>(moving.velocity_mid, rows) };
                 let (velocity, inverse_radius) = unsafe { gather::<R>(moving.velocity, rows) };
-                let spin_mid = unsafe { gather::<R>(moving.spin_mid, rows) }.0;
-                let mut spin = Vector3::zero();
-                if turning_dashpots {
-                    spin = unsafe { gather::<R>(moving.spin, rows) }.0;
+                let (mut spin_mid, mut spin) = (Vector3::zero(), Vector3::zero());
+                if RESISTANCE != resistance::NONE {
+                    spin_mid = unsafe { gather::<R>(moving.spin_mid, rows) }.0;
+                    if turning_dashpots {
+                        spin = unsafe { gather::<R>(moving.spin, rows) }.0;
+                    }
                 }
                 let motion = PairMotion {
                     normal,
@@ -87,10 +95,9 @@ impl<N: NormalLaw> Kernel for WallLoop<'_, N> {
                 batch.push(Gathered { block, pair, motion });
             }
             // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.
-            total += unsafe {
-                batch.respond::<N, { resistance::ALL }, true>(&response, &mut group.memory, &mut energies)
-            };
-            unsafe { batch.add_up::<{ resistance::ALL }, false>(&group.sums, sums) };
+            total +=
+                unsafe { batch.respond::<N, RESISTANCE, true>(&response, &mut group.memory, &mut energies) };
+            unsafe { batch.add_up::<RESISTANCE, false>(&group.sums, sums) };
         }
         let force = Vector3::new(total.x.sum_lanes(), total.y.sum_lanes(), total.z.sum_lanes());
         group.totals = ContactTotals { energies: energies.to_lanes(), force };
