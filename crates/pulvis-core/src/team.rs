@@ -39,12 +39,26 @@ impl Team {
     }
 
     /// Does `work` for every number below `count`, each once, in an order that depends on the threads.
-    /// Every thread begins with numbers of its own, the same in every region, so that what it has in its
-    /// caches is of use again; then it helps the others. `work` is told which member of the team does it,
-    /// counted from zero.
+    /// `work` is told which member of the team does it, counted from zero.
     pub(crate) fn for_each_number(&self, count: usize, work: impl Fn(usize, usize) + Sync) {
+        self.for_each_number_and_after(count, work, |_| {});
+    }
+
+    /// The same, and then `after` for every member that took part, on its thread: when there is no number left
+    /// to begin with, but others may still be at their last ones. Those who wait for others must look whether
+    /// any has panicked, which `after` is given to ask.
+    ///
+    /// Every thread begins with numbers of its own, the same in every region, so that what it has in its
+    /// caches is of use again; then it helps the others.
+    pub(crate) fn for_each_number_and_after(
+        &self,
+        count: usize,
+        work: impl Fn(usize, usize) + Sync,
+        after: impl Fn(&dyn Fn() -> bool) + Sync,
+    ) {
         let Some(crew) = &self.crew else {
             (0..count).for_each(|number| work(0, number));
+            after(&|| false);
             return;
         };
         let threads = self.threads();
@@ -65,6 +79,7 @@ impl Team {
                     work(member, number);
                 }
             }
+            after(&|| crew.shared.panicked.load(Ordering::Relaxed));
         });
     }
 
@@ -144,6 +159,8 @@ struct Board {
     sleeping: Vec<AtomicBool>,
     cursors: Vec<Cursor>,
     panic: Mutex<Option<Box<dyn Any + Send>>>,
+    /// Whether any member has panicked in the present region.
+    panicked: AtomicBool,
 }
 
 /// Parts of the state of a board: helpers in the lower half, then one bit, then the region.
@@ -211,11 +228,15 @@ impl Crew {
             }
         }
         let own = catch_unwind(AssertUnwindSafe(|| job(0)));
+        if own.is_err() {
+            board.panicked.store(true, Ordering::Relaxed);
+        }
         let joined = board.state.fetch_and(!OPEN, Ordering::AcqRel) & HELPERS;
         let mut rounds = 0;
         while board.done.load(Ordering::Acquire) != joined {
             wait(&mut rounds);
         }
+        board.panicked.store(false, Ordering::Relaxed);
         if let Err(panic) = own {
             resume_unwind(panic);
         }
@@ -239,7 +260,7 @@ impl Drop for Crew {
 }
 
 /// One round of waiting.
-fn wait(rounds: &mut u32) {
+pub(crate) fn wait(rounds: &mut u32) {
     *rounds += 1;
     if *rounds < SPINS {
         std::hint::spin_loop();
@@ -281,6 +302,7 @@ fn help(board: &Board, member: usize) {
             }
         }));
         if let Err(panic) = outcome {
+            board.panicked.store(true, Ordering::Relaxed);
             *board.panic.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic);
         }
         board.done.fetch_add(1, Ordering::Release);
@@ -348,6 +370,24 @@ mod tests {
             team.for_each(&mut items, |_, item| *item += 1);
             assert_eq!(items, [1; 16]);
         }
+    }
+
+    #[test]
+    fn members_that_wait_for_one_that_panics_are_told() {
+        let team = Team::of(3).unwrap();
+        let done = AtomicUsize::new(0);
+        let outcome = catch_unwind(AssertUnwindSafe(|| {
+            let work = |_, number| {
+                assert!(number != 70, "number {number}");
+                done.fetch_add(1, Ordering::Relaxed);
+            };
+            team.for_each_number_and_after(100, work, |given_up| {
+                while done.load(Ordering::Relaxed) < 100 && !given_up() {
+                    std::hint::spin_loop();
+                }
+            });
+        }));
+        assert!(outcome.is_err());
     }
 
     #[test]

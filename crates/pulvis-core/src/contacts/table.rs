@@ -1,7 +1,7 @@
 //! All candidate contacts: listed anew when bodies have moved, and swept every step.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 
 use pulvis_contact::ContactEnergies;
 use pulvis_math::{InstructionSet, Lanes, Vector3};
@@ -16,7 +16,7 @@ use crate::neighbours::{CellGrid, Moved};
 use crate::particles::{Load, MaterialIndex, Particles};
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
-use crate::team::Team;
+use crate::team::{Team, wait};
 use crate::walls::Wall;
 
 /// The candidates and what they remember.
@@ -31,6 +31,7 @@ pub(crate) struct ContactTable {
     pending: Vec<Countdown>,
     /// Scratch: the sums of the piece that each member of the team works on.
     sums: Vec<Vec<Load>>,
+    leftovers: Leftovers,
 }
 
 /// Pieces whose contacts are still to be computed before the loads on a piece are complete.
@@ -38,6 +39,8 @@ pub(crate) struct ContactTable {
 struct Countdown {
     left: AtomicU32,
     start: u32,
+    /// The member of the team that has computed the piece's own contacts.
+    member: AtomicUsize,
 }
 
 impl Clone for Countdown {
@@ -48,7 +51,7 @@ impl Clone for Countdown {
 
 impl Countdown {
     fn from(start: u32) -> Self {
-        Self { left: AtomicU32::new(start), start }
+        Self { left: AtomicU32::new(start), start, ..Self::default() }
     }
 
     /// Whether this was the last one; the countdown then begins anew.
@@ -68,6 +71,61 @@ impl Countdown {
 
     fn begin_anew(&self) {
         self.left.store(self.start, Ordering::Relaxed);
+    }
+}
+
+/// Pieces whose loads are complete, but which nobody has finished at once: the member of the team that
+/// brought their countdown to its end has other rows in its caches. They are shared out when no contacts
+/// are left.
+#[derive(Debug, Default)]
+struct Leftovers {
+    /// Numbers of pieces plus one, in the order in which they were left; zero where none stands yet.
+    pieces: Vec<AtomicU32>,
+    left: AtomicUsize,
+    taken: AtomicUsize,
+    /// Pieces that were finished at once.
+    finished: AtomicUsize,
+}
+
+impl Clone for Leftovers {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl Leftovers {
+    fn clear(&mut self, pieces: usize) {
+        self.pieces.resize_with(pieces, AtomicU32::default);
+        for piece in &mut self.pieces[..*self.left.get_mut()] {
+            *piece.get_mut() = 0;
+        }
+        (*self.left.get_mut(), *self.taken.get_mut(), *self.finished.get_mut()) = (0, 0, 0);
+    }
+
+    fn leave(&self, piece: usize) {
+        let place = self.left.fetch_add(1, Ordering::Relaxed);
+        self.pieces[place].store(piece as u32 + 1, Ordering::Release);
+    }
+
+    fn count_finished(&self) {
+        self.finished.fetch_add(1, Ordering::Release);
+    }
+
+    /// Takes the piece that was left first; waits for one as long as any may still be left.
+    fn take(&self, given_up: impl Fn() -> bool) -> Option<usize> {
+        let mut rounds = 0;
+        loop {
+            let taken = self.taken.load(Ordering::Acquire);
+            if taken + self.finished.load(Ordering::Acquire) == self.pieces.len() || given_up() {
+                return None;
+            }
+            let next = self.pieces.get(taken).map_or(0, |piece| piece.load(Ordering::Acquire));
+            let order = Ordering::AcqRel;
+            if next != 0 && self.taken.compare_exchange(taken, taken + 1, order, Ordering::Relaxed).is_ok() {
+                return Some(next as usize - 1);
+            }
+            wait(&mut rounds);
+        }
     }
 }
 
@@ -179,22 +237,32 @@ impl ContactTable {
         let Sweep { loads, moving, walls, advance, keep } = *sweep;
         let count = self.pieces.len();
         self.sums.resize_with(team.threads(), Vec::new);
+        self.leftovers.clear(count);
         let (pieces, scratch) = (Shared::new(&mut self.pieces), Shared::new(&mut self.sums));
+        let leftovers = &self.leftovers;
         let (pending, row_count) = (&self.pending, self.row_count);
         let halos = Halos { rows: &self.halos, starts: &self.halo_starts };
-        let finish_if_over = |number: usize, pieces: Shared<'_, Piece>, loads: Shared<'_, Load>| {
+        let finish_stored = |number: usize| {
+            // SAFETY: all pieces with a part in this one have counted down, and this thread alone has seen
+            // the end of the countdown, or taken the piece from those that were left.
+            unsafe {
+                let piece = pieces.get(number);
+                let own = loads.range_mut(piece.rows.clone());
+                complete(piece, own, halos.rows, loads, row_count);
+                finish(number, piece.rows.clone(), own);
+            }
+        };
+        let count_down = |member: usize, number: usize| {
             if pending[number].is_over() {
-                // SAFETY: all pieces with a part in this one have counted down, and this thread alone has
-                // seen the end of the countdown.
-                unsafe {
-                    let piece = pieces.get(number);
-                    let own = loads.range_mut(piece.rows.clone());
-                    complete(piece, own, halos.rows, loads, row_count);
-                    finish(number, piece.rows.clone(), own);
+                if pending[number].member.load(Ordering::Relaxed) == member {
+                    finish_stored(number);
+                    leftovers.count_finished();
+                } else {
+                    leftovers.leave(number);
                 }
             }
         };
-        team.for_each_number(count, |member, number| {
+        let compute = |member: usize, number: usize| {
             // SAFETY: every member has sums of its own.
             let sums = unsafe { scratch.get_mut(member) };
             // SAFETY: nobody looks at a piece before it has counted down below.
@@ -233,13 +301,20 @@ impl ContactTable {
                     // SAFETY: the loads of these rows, which this thread alone has finished.
                     unsafe { loads.range_mut(rows) }.copy_from_slice(own);
                 }
+                leftovers.count_finished();
             } else {
                 // SAFETY: the sums of these rows, which are not complete.
                 unsafe { loads.range_mut(rows) }.copy_from_slice(own);
-                finish_if_over(number, pieces, loads);
+                pending[number].member.store(member, Ordering::Relaxed);
+                count_down(member, number);
             }
             for &later in &piece.dependents {
-                finish_if_over(later as usize, pieces, loads);
+                count_down(member, later as usize);
+            }
+        };
+        team.for_each_number_and_after(count, compute, |given_up| {
+            while let Some(number) = leftovers.take(given_up) {
+                finish_stored(number);
             }
         });
     }
