@@ -131,7 +131,9 @@ fn the_folder_is_that_of_the_scenario_and_quiet_runs_say_nothing_on_their_way() 
 
 #[test]
 fn check_says_what_the_run_will_be_like_and_writes_nothing() {
-    let place = Place::new("check", &[]);
+    // A start without contacts: a packing needs more memory.
+    let wide = [(r#"spacing = "2.2 mm""#, r#"spacing = "4 mm""#), ("6.6 mm", "12 mm")];
+    let place = Place::new("check", &wide);
     let output = place.pulvis(&["check", "s.toml"]);
     assert_eq!(output.status.code(), Some(0), "{}", error(&output));
     let text = out(&output);
