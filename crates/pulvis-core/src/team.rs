@@ -41,24 +41,23 @@ impl Team {
     /// Does `work` for every number below `count`, each once, in an order that depends on the threads.
     /// `work` is told which member of the team does it, counted from zero.
     pub(crate) fn for_each_number(&self, count: usize, work: impl Fn(usize, usize) + Sync) {
-        self.for_each_number_and_after(count, work, |_| {});
+        self.for_each_number_in_turns(count, work, |_, _| {});
     }
 
-    /// The same, and then `after` for every member that took part, on its thread: when there is no number left
-    /// to begin with, but others may still be at their last ones. Those who wait for others must look whether
-    /// any has panicked, which `after` is given to ask.
+    /// The same; between its turns every member calls `between`: when it has no number of its own left to
+    /// begin with, and when nobody has any, though others may still be at their last ones.
     ///
-    /// Every thread begins with numbers of its own, the same in every region, so that what it has in its
+    /// Every member begins with numbers of its own, the same in every region, so that what it has in its
     /// caches is of use again; then it helps the others.
-    pub(crate) fn for_each_number_and_after(
+    pub(crate) fn for_each_number_in_turns(
         &self,
         count: usize,
         work: impl Fn(usize, usize) + Sync,
-        after: impl Fn(&dyn Fn() -> bool) + Sync,
+        between: impl Fn(usize, &Turn<'_>) + Sync,
     ) {
         let Some(crew) = &self.crew else {
             (0..count).for_each(|number| work(0, number));
-            after(&|| false);
+            between(0, &Turn { last: true, panicked: None });
             return;
         };
         let threads = self.threads();
@@ -67,6 +66,7 @@ impl Team {
             cursor.0.store(count * member / threads, Ordering::Relaxed);
         }
         let cursors = &crew.shared.cursors;
+        let panicked = Some(&crew.shared.panicked);
         crew.region(&guard, &|member| {
             for turn in 0..threads {
                 let owner = (member + turn) % threads;
@@ -78,8 +78,11 @@ impl Team {
                     }
                     work(member, number);
                 }
+                if turn == 0 {
+                    between(member, &Turn { last: false, panicked });
+                }
             }
-            after(&|| crew.shared.panicked.load(Ordering::Relaxed));
+            between(member, &Turn { last: true, panicked });
         });
     }
 
@@ -124,6 +127,25 @@ impl Team {
         let items = Shared::new(items);
         // SAFETY: every number is handed out once.
         self.for_each_number(count, |_, number| work(number, unsafe { items.get_mut(number) }));
+    }
+}
+
+/// Where a member of the team stands in a region.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Turn<'a> {
+    last: bool,
+    panicked: Option<&'a AtomicBool>,
+}
+
+impl Turn<'_> {
+    /// Whether there is no number left to begin with.
+    pub(crate) fn is_last(&self) -> bool {
+        self.last
+    }
+
+    /// Whether another member has panicked: it is of no use to wait for what it should have done.
+    pub(crate) fn is_given_up(&self) -> bool {
+        self.panicked.is_some_and(|panicked| panicked.load(Ordering::Relaxed))
     }
 }
 
@@ -381,8 +403,8 @@ mod tests {
                 assert!(number != 70, "number {number}");
                 done.fetch_add(1, Ordering::Relaxed);
             };
-            team.for_each_number_and_after(100, work, |given_up| {
-                while done.load(Ordering::Relaxed) < 100 && !given_up() {
+            team.for_each_number_in_turns(100, work, |_, turn| {
+                while turn.is_last() && done.load(Ordering::Relaxed) < 100 && !turn.is_given_up() {
                     std::hint::spin_loop();
                 }
             });

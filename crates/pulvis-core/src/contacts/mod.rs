@@ -5,6 +5,7 @@ mod candidates;
 mod interactions;
 mod kernel;
 mod layout;
+mod leftovers;
 mod piece;
 mod rebuild;
 mod table;

@@ -9,6 +9,7 @@ use pulvis_math::{InstructionSet, Lanes, Vector3};
 use super::Interactions;
 use super::block::{ContactGroup, Partner};
 use super::kernel::{self, Advance, Ahead, Moving, WallMotionNow};
+use super::leftovers::Leftovers;
 use super::piece::{Closed, Incoming, Piece, cut};
 use super::rebuild::MemoryStore;
 use crate::domain::Images;
@@ -16,7 +17,7 @@ use crate::neighbours::{CellGrid, Moved};
 use crate::particles::{Load, MaterialIndex, Particles};
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
-use crate::team::{Team, wait};
+use crate::team::Team;
 use crate::walls::Wall;
 
 /// The candidates and what they remember.
@@ -71,61 +72,6 @@ impl Countdown {
 
     fn begin_anew(&self) {
         self.left.store(self.start, Ordering::Relaxed);
-    }
-}
-
-/// Pieces whose loads are complete, but which nobody has finished at once: the member of the team that
-/// brought their countdown to its end has other rows in its caches. They are shared out when no contacts
-/// are left.
-#[derive(Debug, Default)]
-struct Leftovers {
-    /// Numbers of pieces plus one, in the order in which they were left; zero where none stands yet.
-    pieces: Vec<AtomicU32>,
-    left: AtomicUsize,
-    taken: AtomicUsize,
-    /// Pieces that were finished at once.
-    finished: AtomicUsize,
-}
-
-impl Clone for Leftovers {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
-}
-
-impl Leftovers {
-    fn clear(&mut self, pieces: usize) {
-        self.pieces.resize_with(pieces, AtomicU32::default);
-        for piece in &mut self.pieces[..*self.left.get_mut()] {
-            *piece.get_mut() = 0;
-        }
-        (*self.left.get_mut(), *self.taken.get_mut(), *self.finished.get_mut()) = (0, 0, 0);
-    }
-
-    fn leave(&self, piece: usize) {
-        let place = self.left.fetch_add(1, Ordering::Relaxed);
-        self.pieces[place].store(piece as u32 + 1, Ordering::Release);
-    }
-
-    fn count_finished(&self) {
-        self.finished.fetch_add(1, Ordering::Release);
-    }
-
-    /// Takes the piece that was left first; waits for one as long as any may still be left.
-    fn take(&self, given_up: impl Fn() -> bool) -> Option<usize> {
-        let mut rounds = 0;
-        loop {
-            let taken = self.taken.load(Ordering::Acquire);
-            if taken + self.finished.load(Ordering::Acquire) == self.pieces.len() || given_up() {
-                return None;
-            }
-            let next = self.pieces.get(taken).map_or(0, |piece| piece.load(Ordering::Acquire));
-            let order = Ordering::AcqRel;
-            if next != 0 && self.taken.compare_exchange(taken, taken + 1, order, Ordering::Relaxed).is_ok() {
-                return Some(next as usize - 1);
-            }
-            wait(&mut rounds);
-        }
     }
 }
 
@@ -237,7 +183,7 @@ impl ContactTable {
         let Sweep { loads, moving, walls, advance, keep } = *sweep;
         let count = self.pieces.len();
         self.sums.resize_with(team.threads(), Vec::new);
-        self.leftovers.clear(count);
+        self.leftovers.clear(team.threads(), count);
         let (pieces, scratch) = (Shared::new(&mut self.pieces), Shared::new(&mut self.sums));
         let leftovers = &self.leftovers;
         let (pending, row_count) = (&self.pending, self.row_count);
@@ -254,11 +200,12 @@ impl ContactTable {
         };
         let count_down = |member: usize, number: usize| {
             if pending[number].is_over() {
-                if pending[number].member.load(Ordering::Relaxed) == member {
-                    finish_stored(number);
+                let owner = pending[number].member.load(Ordering::Relaxed);
+                if owner == member {
                     leftovers.count_finished();
+                    finish_stored(number);
                 } else {
-                    leftovers.leave(number);
+                    leftovers.leave(owner, number);
                 }
             }
         };
@@ -312,8 +259,8 @@ impl ContactTable {
                 count_down(member, later as usize);
             }
         };
-        team.for_each_number_and_after(count, compute, |given_up| {
-            while let Some(number) = leftovers.take(given_up) {
+        team.for_each_number_in_turns(count, compute, |member, turn| {
+            while let Some(number) = leftovers.take(member, turn) {
                 finish_stored(number);
             }
         });
