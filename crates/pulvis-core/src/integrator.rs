@@ -5,7 +5,6 @@ use std::ops::Range;
 use pulvis_math::{Kernel, Octet, Quad, Row};
 
 use crate::background::Background;
-use crate::neighbours::Moved;
 use crate::particles::{Load, Particles};
 use crate::shared::Shared;
 
@@ -19,13 +18,11 @@ pub(crate) struct Columns<'a> {
     spin_predicted: Shared<'a, Quad>,
     pub(crate) loads: Shared<'a, Load>,
     mass: &'a [f64],
-    /// Where the particles were when the candidates were listed.
-    listed: &'a [Quad],
 }
 
 impl<'a> Columns<'a> {
-    /// The columns of the particles; `listed` has their places of when the candidates were listed.
-    pub(crate) fn of(particles: &'a mut Particles, listed: &'a [Quad]) -> Self {
+    /// The columns of the particles.
+    pub(crate) fn of(particles: &'a mut Particles) -> Self {
         Self {
             place: Shared::new(&mut particles.place),
             velocity: Shared::new(&mut particles.velocity),
@@ -34,7 +31,6 @@ impl<'a> Columns<'a> {
             spin_predicted: Shared::new(&mut particles.spin_predicted),
             loads: Shared::new(&mut particles.loads),
             mass: &particles.mass,
-            listed,
         }
     }
 
@@ -80,8 +76,8 @@ pub(crate) struct Step {
 pub(crate) struct Kicked {
     /// Power that the drag takes [W].
     pub(crate) power: f64,
-    /// How far the rows have moved.
-    pub(crate) moved: Moved,
+    /// The highest speed of the drift [m/s]; infinite where one is no number.
+    pub(crate) fastest: f64,
 }
 
 impl<'a, const FINISH: bool, const BEGIN: bool> Kicks<'a, FINISH, BEGIN> {
@@ -108,7 +104,7 @@ impl<const FINISH: bool, const BEGIN: bool> Kernel for Kicks<'_, FINISH, BEGIN> 
     fn run<R: Octet>(self) -> Kicked {
         let Self { columns, rows, loads, background, step: Step { time_step, predicts_spins } } = self;
         let loads = &mut loads[..rows.len()];
-        let (mass, listed) = (&columns.mass[rows.clone()], &columns.listed[rows.clone()]);
+        let mass = &columns.mass[rows.clone()];
         // SAFETY: as `new` demands.
         let (place, velocity, spin, velocity_predicted, spin_predicted) = unsafe {
             (
@@ -159,12 +155,16 @@ impl<const FINISH: bool, const BEGIN: bool> Kernel for Kicks<'_, FINISH, BEGIN> 
                 let before = R::Row::load(&place[row]);
                 let after = before.plus(velocity_now.times(step)).with_scalar_of(before);
                 after.store(&mut place[row]);
-                let mut way = Quad::default();
-                after.minus(R::Row::load(&listed[row])).store(&mut way);
-                kicked.moved.take_in(way.vector.norm_squared());
+                let mut drift = Quad::default();
+                velocity_now.store(&mut drift);
+                let speed = drift.vector.norm_squared();
+                // Not `>`: a NaN must not be passed over.
+                if !(speed <= kicked.fastest) {
+                    kicked.fastest = if speed.is_nan() { f64::INFINITY } else { speed };
+                }
             }
         }
-        kicked.moved = kicked.moved.root();
+        kicked.fastest = kicked.fastest.sqrt();
         kicked
     }
 }

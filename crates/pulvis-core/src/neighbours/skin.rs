@@ -1,5 +1,7 @@
 //! When the list of candidates is out of date.
 
+use std::ops::Range;
+
 use pulvis_math::Quad;
 
 /// Where particles and walls were when the candidates were listed, and how far they may move.
@@ -9,7 +11,13 @@ pub(crate) struct Skin {
     pub(crate) thickness: f64,
     places: Vec<Quad>,
     walls: Vec<f64>,
+    /// Steps since the list was made.
+    steps: u64,
 }
+
+/// Steps after which it is looked at how far particles have really moved. In between, the highest speed says
+/// how far at the most: that costs no look at where they were, which is far from any cache.
+const SURVEY: u64 = 8;
 
 /// The longest and the second longest way of any particle since it was listed: no gap between two
 /// particles has closed by more than their sum.
@@ -31,10 +39,18 @@ impl Moved {
         }
     }
 
-    /// The same of the roots of the ways, which were squares.
-    #[inline(always)]
-    pub(crate) fn root(self) -> Self {
-        Self { longest: self.longest.sqrt(), second: self.second.sqrt() }
+    /// Of a range of rows.
+    fn of(places: &[Quad], listed: &[Quad]) -> Self {
+        let mut squares = Self::default();
+        for (now, before) in places.iter().zip(listed) {
+            squares.take_in((now.vector - before.vector).norm_squared());
+        }
+        Self { longest: squares.longest.sqrt(), second: squares.second.sqrt() }
+    }
+
+    /// At the most, when all have gone on by up to `way`.
+    pub(crate) fn farther(self, way: f64) -> Self {
+        Self { longest: self.longest + way, second: self.second + way }
     }
 
     /// By how much a gap between two of these particles can have closed.
@@ -71,11 +87,18 @@ impl Skin {
         self.places.extend_from_slice(places);
         self.walls.clear();
         self.walls.extend(wall_offsets);
+        self.steps = 0;
     }
 
-    /// Where the particles were.
-    pub(crate) fn listed(&self) -> &[Quad] {
-        &self.places
+    /// Counts a step. Answers whether a survey is due.
+    pub(crate) fn count_step(&mut self) -> bool {
+        self.steps += 1;
+        self.steps.is_multiple_of(SURVEY)
+    }
+
+    /// How far the particles of some rows, now at `places`, have moved since the list was made [m].
+    pub(crate) fn moved(&self, rows: Range<usize>, places: &[Quad]) -> Moved {
+        Moved::of(&places[rows.clone()], &self.places[rows])
     }
 
     /// The longest way of any wall since the list was made [m].

@@ -15,7 +15,7 @@ use crate::contacts::{ContactTable, Interactions, MemoryStore, WallMotionNow};
 use crate::domain::Domain;
 use crate::integrator::Kicked;
 use crate::ledger::Running;
-use crate::neighbours::Skin;
+use crate::neighbours::{Moved, Skin};
 use crate::particles::{MaterialIndex, Particle, Particles};
 use crate::phases::Phases;
 use crate::team::Team;
@@ -80,8 +80,17 @@ pub struct Simulation {
 struct Outcome {
     /// What the last kicks gave.
     kicked: Kicked,
+    /// How far the rows have moved since the candidates were listed, at the most [m].
+    moved: Moved,
     /// Time spent since the candidates were listed [s].
     seconds: f64,
+}
+
+impl Outcome {
+    /// The rows have drifted over a `time_step` [s].
+    fn drift_on(&mut self, time_step: f64) {
+        self.moved = self.moved.farther(self.kicked.fastest * time_step);
+    }
 }
 
 /// Contacts keep 32-bit places of rows, counted in numbers of which a quad has four. Remembered contacts,

@@ -2,7 +2,7 @@
 
 use pulvis_math::Vector3;
 
-use super::{Outcome, Simulation, StepError};
+use super::{Simulation, StepError};
 use crate::contacts::{Advance, Sweep};
 use crate::integrator::{Columns, Kicks, Step};
 use crate::neighbours::{Moved, Outdated};
@@ -46,7 +46,7 @@ impl Simulation {
     fn kick_and_drift(&mut self) {
         let pieces = self.contacts.pieces();
         let (instructions, step) = (self.instructions, self.step_of_rows(self.time_step));
-        let columns = Columns::of(&mut self.particles, self.skin.listed());
+        let columns = Columns::of(&mut self.particles);
         let (background, timed) = (&self.background, self.phases.is_some());
         self.team.for_each(&mut self.outcomes, |number, outcome| {
             let mut clock = Stopwatch::start(timed);
@@ -56,6 +56,7 @@ impl Simulation {
                 let loads = columns.loads.range_mut(rows.clone());
                 instructions.run(Kicks::<false, true>::new(columns, rows, loads, background, step))
             };
+            outcome.drift_on(step.time_step);
             clock.lap(&mut outcome.seconds);
         });
     }
@@ -68,14 +69,21 @@ impl Simulation {
     /// Lists the candidates anew if particles have moved too far; otherwise tells the contacts by how much
     /// gaps can have closed.
     fn renew_if_outdated(&mut self) -> Result<(), StepError> {
-        let moved = |outcome: &Outcome| outcome.kicked.moved;
         let walls = self.skin.moved_walls(self.walls.iter().map(Wall::offset));
-        let all = Moved::of_all(self.outcomes.iter().map(moved));
-        let closed = all.closed().max(all.longest + walls);
+        let surveyed = self.skin.count_step();
+        if surveyed {
+            self.survey();
+        }
+        let mut closed = self.closed(walls);
+        // Not `>`: what is no number is to be found.
+        if !surveyed && !(closed <= self.skin.thickness) {
+            self.survey();
+            closed = self.closed(walls);
+        }
         match self.skin.outdated(closed, &self.particles.place) {
             Outdated::No => {
                 let outcomes = &self.outcomes;
-                self.contacts.close_gaps(|piece| moved(&outcomes[piece]), walls);
+                self.contacts.close_gaps(|piece| outcomes[piece].moved, walls);
                 Ok(())
             }
             Outdated::Yes => {
@@ -87,6 +95,21 @@ impl Simulation {
                 Err(StepError::Lost { id, step: self.step, time: self.time })
             }
         }
+    }
+
+    /// By how much any gap can have closed since the candidates were listed [m], the walls having moved by
+    /// up to `walls` [m].
+    fn closed(&self, walls: f64) -> f64 {
+        let all = Moved::of_all(self.outcomes.iter().map(|outcome| outcome.moved));
+        all.closed().max(all.longest + walls)
+    }
+
+    /// Looks how far the particles have really moved.
+    fn survey(&mut self) {
+        let (pieces, skin, places) = (self.contacts.pieces(), &self.skin, &self.particles.place);
+        self.team.for_each(&mut self.outcomes, |number, outcome| {
+            outcome.moved = skin.moved(pieces[number].rows.clone(), places);
+        });
     }
 
     fn move_walls(&mut self) {
@@ -131,7 +154,7 @@ impl Simulation {
             instructions: self.instructions,
         };
         let step = self.step_of_rows(time_step);
-        let columns = Columns::of(&mut self.particles, self.skin.listed());
+        let columns = Columns::of(&mut self.particles);
         let (instructions, background) = (self.instructions, &self.background);
         let outcomes = Shared::new(&mut self.outcomes);
         let sweep = Sweep {
@@ -146,11 +169,14 @@ impl Simulation {
             unsafe {
                 let outcome = outcomes.get_mut(number);
                 let mut clock = Stopwatch::start(advance.timed);
-                outcome.kicked = if onwards {
-                    instructions.run(Kicks::<true, true>::new(columns, rows, loads, background, step))
+                if onwards {
+                    let kicks = Kicks::<true, true>::new(columns, rows, loads, background, step);
+                    outcome.kicked = instructions.run(kicks);
+                    outcome.drift_on(time_step);
                 } else {
-                    instructions.run(Kicks::<true, false>::new(columns, rows, loads, background, step))
-                };
+                    let kicks = Kicks::<true, false>::new(columns, rows, loads, background, step);
+                    outcome.kicked = instructions.run(kicks);
+                }
                 clock.lap(&mut outcome.seconds);
             }
         });
