@@ -1,9 +1,8 @@
 //! Candidate contacts of one contact model, in blocks of eight.
 
-use pulvis_contact::ContactModel;
-use pulvis_math::{Lanes, Mask, Octet};
+use pulvis_contact::{ContactEnergies, ContactModel};
+use pulvis_math::{Lanes, Mask, Octet, Vector3};
 
-use super::kernel::ContactTotals;
 use super::layout::{Lane, Layout};
 
 /// Contacts in a block.
@@ -19,12 +18,13 @@ pub(crate) const LOAD: u32 = 8;
 pub(crate) enum Partner {
     /// Other particles.
     Particle,
-    /// The wall at this place in the list of walls.
-    Wall(usize),
+    /// Walls. All contacts of a block are with the same one, whose place in the list of walls stands for the
+    /// rows of the second bodies.
+    Wall,
 }
 
-/// Places for the first and for the second bodies of eight contacts; a last, incomplete block repeats
-/// its first contact. Walls, as second bodies, have none: zeros stand there.
+/// Places for the first and for the second bodies of eight contacts; an incomplete block repeats its first
+/// contact.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct Places(pub(crate) [[u32; WIDTH]; 2]);
@@ -38,9 +38,11 @@ pub(crate) struct ContactGroup {
     pub(crate) partner: Partner,
     /// Rows of the bodies of each block, times [`QUAD`].
     pub(crate) rows: Vec<Places>,
-    /// Where their loads are summed: places among those of the piece, times [`LOAD`]. Apart from the
-    /// rows: blocks that are looked at and found not to act need none.
+    /// Where their loads are summed: places among those of the piece, times [`LOAD`]; those of walls mean
+    /// nothing. Apart from the rows: blocks that are looked at and found not to act need none.
     pub(crate) sums: Vec<Places>,
+    /// How many contacts each block holds: eight, but in the last one and where another wall follows.
+    pub(crate) filled: Vec<u8>,
     /// Memory: for each block, one value of eight lanes a column.
     pub(crate) memory: Vec<Lane>,
     /// Whether any contact of the block acted when it was last looked at. Blocks that did not, and
@@ -49,15 +51,16 @@ pub(crate) struct ContactGroup {
     /// The smallest gap that any contact of the block had to its reach when it was listed [m]: until
     /// bodies have moved that far, the block needs no look.
     pub(crate) gap: Vec<f64>,
-    /// What the last sweep added up to.
-    pub(crate) totals: ContactTotals,
-    count: usize,
+    /// What the last sweep added up to, lane by lane.
+    pub(crate) energies: ContactEnergies<Lane>,
+    /// The forces of the last sweep on the first bodies [N], wall by wall; empty for particles.
+    pub(crate) wall_forces: Vec<Vector3>,
 }
 
 /// A candidate contact as it is listed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate {
-    /// Rows of the bodies; zero for a wall.
+    /// Rows of the bodies; of a wall its place.
     pub(crate) rows: [u32; 2],
     /// Where their loads are summed.
     pub(crate) sums: [u32; 2],
@@ -69,7 +72,7 @@ impl ContactGroup {
     /// A group without contacts, in the memory of a `spare` one.
     pub(crate) fn new(model: ContactModel, partner: Partner, spare: Option<Self>) -> Self {
         let layout = Layout::of(&model);
-        let totals = ContactTotals::default();
+        let energies = ContactEnergies::default();
         let Some(mut group) = spare else {
             return Self {
                 model,
@@ -77,24 +80,27 @@ impl ContactGroup {
                 partner,
                 rows: Vec::new(),
                 sums: Vec::new(),
+                filled: Vec::new(),
                 memory: Vec::new(),
                 live: Vec::new(),
                 gap: Vec::new(),
-                totals,
-                count: 0,
+                energies,
+                wall_forces: Vec::new(),
             };
         };
         group.rows.clear();
         group.sums.clear();
+        group.filled.clear();
         group.memory.clear();
         group.live.clear();
         group.gap.clear();
-        Self { model, layout, partner, totals, count: 0, ..group }
+        group.wall_forces.clear();
+        Self { model, layout, partner, energies, ..group }
     }
 
     /// Number of candidate contacts.
     pub(crate) fn len(&self) -> usize {
-        self.count
+        self.filled.iter().map(|&filled| usize::from(filled)).sum()
     }
 
     /// Memory of the candidates and of what they remember [byte].
@@ -108,18 +114,23 @@ impl ContactGroup {
 
     /// Adds a candidate contact, with its memory where it has any.
     pub(crate) fn push(&mut self, candidate: &Candidate, remembered: Option<&[f64]>) {
-        let lane = self.count % WIDTH;
         let rows = candidate.rows.map(|row| row * QUAD);
         let sums = candidate.sums.map(|place| place * LOAD);
-        if lane == 0 {
+        let last = self.rows.last().zip(self.filled.last());
+        let goes_on = last.is_some_and(|(last, &filled)| {
+            usize::from(filled) < WIDTH && (self.partner == Partner::Particle || last.0[1][0] == rows[1])
+        });
+        if !goes_on {
             let all = |place: u32| [place; WIDTH];
             self.rows.push(Places(rows.map(all)));
             self.sums.push(Places(sums.map(all)));
+            self.filled.push(0);
             self.memory.resize(self.memory.len() + self.layout.columns(), Lane::default());
             self.live.push(false);
             self.gap.push(candidate.gap);
         }
         let block = self.rows.len() - 1;
+        let lane = self.filled(block);
         self.gap[block] = self.gap[block].min(candidate.gap);
         for body in 0..2 {
             self.rows[block].0[body][lane] = rows[body];
@@ -132,7 +143,7 @@ impl ContactGroup {
             }
             self.live[block] = true;
         }
-        self.count += 1;
+        self.filled[block] += 1;
     }
 
     /// Row of the first body of a contact.
@@ -140,7 +151,7 @@ impl ContactGroup {
         self.rows[block].0[0][lane] / QUAD
     }
 
-    /// Row of the second body of a contact between particles.
+    /// Row of the second body of a contact between particles; the place of a wall.
     pub(crate) fn second_row(&self, block: usize, lane: usize) -> u32 {
         self.rows[block].0[1][lane] / QUAD
     }
@@ -154,7 +165,7 @@ impl ContactGroup {
     /// How many contacts the block holds.
     #[inline(always)]
     pub(crate) fn filled(&self, block: usize) -> usize {
-        (self.count - block * WIDTH).min(WIDTH)
+        usize::from(self.filled[block])
     }
 
     /// Calls `action` with block, lane and memory of every contact that remembers anything.
@@ -177,10 +188,10 @@ impl ContactGroup {
 
 /// True in the first `filled` lanes.
 #[inline(always)]
-pub(crate) fn filled_lanes<R: Octet>(filled: usize) -> R::Mask {
-    if filled == WIDTH {
+pub(crate) fn filled_lanes<R: Octet>(filled: u8) -> R::Mask {
+    if usize::from(filled) == WIDTH {
         return Mask::splat(true);
     }
     const NUMBERS: Lane = Lanes([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
-    R::load(&NUMBERS).lt(R::splat(filled as f64))
+    R::load(&NUMBERS).lt(R::splat(f64::from(filled)))
 }

@@ -11,7 +11,6 @@ mod rebuild;
 mod table;
 mod view;
 
-pub(crate) use block::Partner;
 pub use interactions::Interactions;
 pub(crate) use kernel::{Advance, Moving, WallMotionNow};
 pub(crate) use rebuild::MemoryStore;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use pulvis_math::Quad;
+use pulvis_math::{Quad, Vector3};
 
 use super::block::{Candidate, ContactGroup, Partner};
 use super::candidates;
@@ -150,26 +150,30 @@ impl Piece {
         (self.rows.len() + self.halo.partition_point(|&other| other < row)) as u32
     }
 
+    /// Lists what may touch walls: one group for each model, in it wall by wall.
     fn list_walls(&mut self, around: &Surroundings<'_>, memory: &MemoryStore, spare: &mut Vec<ContactGroup>) {
         let Surroundings { particles, interactions, walls, skin, .. } = *around;
-        for (place, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.present) {
+        let mut groups: Vec<Option<ContactGroup>> = vec![None; interactions.groups()];
+        for (number, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.present) {
             for &material in around.materials {
                 let Some(&model) = interactions.get(material, wall.material) else { continue };
+                let group = groups[interactions.group(material, wall.material)]
+                    .get_or_insert_with(|| ContactGroup::new(model, Partner::Wall, spare.pop()));
+                group.wall_forces.resize(walls.len(), Vector3::zero());
                 let touch = wall.offset() + model.reach();
-                let mut group = ContactGroup::new(model, Partner::Wall(place), spare.pop());
                 for row in self.rows.clone().filter(|&row| particles.material[row] == material) {
                     let Quad { vector, scalar } = particles.place[row];
                     let gap = vector.dot(wall.normal) - scalar - touch;
                     if gap < skin {
-                        let record = memory.find(around.order[row], wall_partner(place), &group);
+                        let record = memory.find(around.order[row], wall_partner(number), group);
                         let sum = (row - self.rows.start) as u32;
-                        let candidate = Candidate { rows: [row as u32, 0], sums: [sum, 0], gap };
+                        let candidate = Candidate { rows: [row as u32, number as u32], sums: [sum, 0], gap };
                         group.push(&candidate, record.as_deref());
                     }
                 }
-                self.keep(group);
             }
         }
+        groups.into_iter().flatten().for_each(|group| self.keep(group));
     }
 
     fn keep(&mut self, group: ContactGroup) {

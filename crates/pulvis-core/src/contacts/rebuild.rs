@@ -47,7 +47,7 @@ impl MemoryStore {
                 let first = group.first_row(block, lane);
                 let partner = match group.partner {
                     Partner::Particle => group.second_row(block, lane),
-                    Partner::Wall(wall) => wall_partner(wall),
+                    Partner::Wall => wall_partner(group.second_row(block, lane) as usize),
                 };
                 unsorted.push((first, Entry { partner, layout, record: store.records.len() }));
                 store.starts[first as usize + 1] += 1;

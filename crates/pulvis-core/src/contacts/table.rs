@@ -228,7 +228,7 @@ impl ContactTable {
                 unsafe { kernel::sweep(group, sums, moving, walls, advance, *closed, ahead) };
                 clock.lap(match group.partner {
                     Partner::Particle => &mut phases.pairs,
-                    Partner::Wall(_) => &mut phases.walls,
+                    Partner::Wall => &mut phases.walls,
                 });
             }
             let rows = rows.clone();
@@ -270,7 +270,7 @@ impl ContactTable {
     pub(crate) fn energies(&self) -> ContactEnergies {
         let mut sum = ContactEnergies::<Lanes<8>>::default();
         for group in self.groups() {
-            sum += group.totals.energies;
+            sum += group.energies;
         }
         sum.sum_lanes()
     }
@@ -278,8 +278,8 @@ impl ContactTable {
     /// Adds the force of every wall on the particles to its place in `forces`.
     pub(crate) fn add_wall_forces(&self, forces: &mut [Vector3]) {
         for group in self.groups() {
-            if let Partner::Wall(place) = group.partner {
-                forces[place] += group.totals.force;
+            for (sum, &force) in forces.iter_mut().zip(&group.wall_forces) {
+                *sum += force;
             }
         }
     }

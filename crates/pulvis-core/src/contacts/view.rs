@@ -43,8 +43,8 @@ pub(crate) struct Views<'a> {
     pub(crate) group: &'a ContactGroup,
     pub(crate) particles: &'a Particles,
     pub(crate) images: Images,
-    /// For walls: how the wall lies and moves.
-    pub(crate) wall: Option<WallMotionNow>,
+    /// How walls lie and move.
+    pub(crate) walls: &'a [WallMotionNow],
 }
 
 /// Hands every contact of a group that acts to `see`. The forces are computed anew from a copy of the
@@ -140,8 +140,9 @@ impl Views<'_> {
                 let centre_second = centre - separation;
                 Some(Seen { motion, pair, first, second, centre_first: centre, centre_second })
             }
-            Partner::Wall(place) => {
-                let wall = self.wall?;
+            Partner::Wall => {
+                let place = self.group.second_row(block, lane) as usize;
+                let wall = self.walls.get(place)?;
                 let distance = centre.dot(wall.normal) - wall.offset;
                 let motion = PairMotion {
                     normal: wall.normal,

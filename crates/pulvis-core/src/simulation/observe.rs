@@ -1,7 +1,7 @@
 //! What can be seen of a simulation: the ledger and the contacts.
 
 use super::Simulation;
-use crate::contacts::{ContactView, Partner, Views, view_contacts};
+use crate::contacts::{ContactView, Views, view_contacts};
 use crate::ledger::Ledger;
 
 impl Simulation {
@@ -57,13 +57,11 @@ impl Simulation {
 
     /// Hands every contact that acts to `see`, pairs first, then walls.
     pub fn for_each_contact(&self, see: &mut dyn FnMut(&ContactView)) {
+        let walls = self.wall_states.iter().zip(&self.walls);
+        let walls: Vec<_> = walls.map(|(state, wall)| state.motion_at_rest(wall)).collect();
         for group in self.contacts.groups() {
-            let wall = match group.partner {
-                Partner::Particle => None,
-                Partner::Wall(place) => Some(self.wall_states[place].motion_at_rest(&self.walls[place])),
-            };
             let (particles, images) = (&self.particles, self.domain.images());
-            view_contacts(Views { group, particles, images, wall }, see);
+            view_contacts(Views { group, particles, images, walls: &walls }, see);
         }
     }
 }

@@ -91,7 +91,7 @@ impl<R: Octet> Batch<R> {
     }
 
     /// Computes all blocks, updates their `memory`, and adds their energies to `energies` if the ledger is
-    /// kept. Answers with the sum of the forces on the first bodies [N].
+    /// kept.
     ///
     /// # Safety
     /// `memory` holds that of every block, as `response` lays it out.
@@ -101,9 +101,8 @@ impl<R: Octet> Batch<R> {
         response: &Response<N>,
         memory: &mut [Lane],
         energies: &mut ContactEnergies<R>,
-    ) -> Vector3<R> {
+    ) {
         let columns = response.layout.columns();
-        let mut total = Vector3::zero();
         for place in 0..self.count {
             // SAFETY: the first `count` have been gathered.
             let gathered = unsafe { self.gathered[place].assume_init_ref() };
@@ -124,12 +123,28 @@ impl<R: Octet> Batch<R> {
                 torque_i: answer.torque_i,
                 torque_j: answer.torque_j,
             });
-            total += answer.force;
             if LEDGER {
                 *energies += answer.energies;
             }
         }
-        total
+    }
+
+    /// How many blocks there are.
+    #[inline(always)]
+    pub(super) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// A block, and the forces on its first bodies [N].
+    ///
+    /// # Safety
+    /// There is such a block, and it has been computed.
+    #[inline(always)]
+    pub(super) unsafe fn force(&self, place: usize) -> (usize, Vector3<R>) {
+        // SAFETY: the caller's.
+        unsafe {
+            (self.gathered[place].assume_init_ref().block, self.answered[place].assume_init_ref().force)
+        }
     }
 
     /// Adds the loads to `sums`, at the `places` of each block; the batch is empty afterwards.

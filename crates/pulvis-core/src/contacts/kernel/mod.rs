@@ -6,13 +6,11 @@ mod walls;
 
 use std::ops::Range;
 
-use pulvis_contact::ContactEnergies;
 use pulvis_math::{InstructionSet, Quad, Vector3};
 
 use self::pairs::PairSweep;
 use self::walls::WallSweep;
 use super::block::{ContactGroup, Partner};
-use super::layout::Lane;
 use super::piece::Closed;
 use crate::domain::Images;
 use crate::particles::Load;
@@ -54,15 +52,6 @@ pub(crate) struct WallMotionNow {
     pub(crate) velocity: Vector3,
 }
 
-/// What a sweep over a group's contacts adds up to.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct ContactTotals {
-    /// Lane by lane.
-    pub(crate) energies: ContactEnergies<Lane>,
-    /// Sum of the forces on the first bodies [N].
-    pub(crate) force: Vector3,
-}
-
 /// Over which step bodies have moved, and how the loop is to run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Advance {
@@ -81,7 +70,7 @@ pub(crate) struct Advance {
 /// Computes a group's contacts, particle pairs or contacts with a wall, and adds their loads to `sums`.
 ///
 /// # Safety
-/// The group's rows lie within the columns of `moving`, its places of sums within `sums`, and nobody
+/// The group's rows lie within the columns of `moving`, its walls within `walls`, its places of sums within `sums`, and nobody
 /// writes those rows meanwhile.
 pub(crate) unsafe fn sweep(
     group: &mut ContactGroup,
@@ -96,12 +85,12 @@ pub(crate) unsafe fn sweep(
     let partner = group.partner;
     let closed = match partner {
         Partner::Particle => closed.pairs,
-        Partner::Wall(_) => closed.walls,
+        Partner::Wall => closed.walls,
     };
     let contacts = Loop { group, sums, moving, advance, closed, ahead };
     match partner {
         Partner::Particle => normal.accept(PairSweep(contacts)),
-        Partner::Wall(place) => normal.accept(WallSweep(contacts, walls[place])),
+        Partner::Wall => normal.accept(WallSweep(contacts, walls)),
     }
 }
 

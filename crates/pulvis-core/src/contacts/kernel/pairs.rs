@@ -3,9 +3,9 @@
 use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance};
 use pulvis_math::{Kernel, Mask, Octet, Vector3};
 
-use super::super::block::{WIDTH, filled_lanes};
+use super::super::block::filled_lanes;
+use super::Loop;
 use super::batch::{BATCH, Batch, Gathered, Response, gather, gather_apart};
-use super::{ContactTotals, Loop};
 use crate::shared::Shared;
 
 /// The loop over a group, with the type of its law.
@@ -53,7 +53,7 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
         let response = Response { law, composition, layout: group.layout, time_step: advance.time_step };
         let mut energies = ContactEnergies::<R>::default();
         let mut batch = Batch::<R>::new();
-        let (count, blocks) = (group.len(), group.rows.len());
+        let blocks = group.rows.len();
         let mut next = 0;
         let a_batch = |rows: usize| (rows * BATCH).div_ceil(blocks).next_multiple_of(2);
         let counts = [a_batch(ahead.rows.len()), a_batch(ahead.halo.len())];
@@ -62,7 +62,7 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
             while next < blocks && !batch.is_full() {
                 let block = next;
                 next += 1;
-                // SAFETY (here and below): every block has its gap, its flag and its rows, and rows lie
+                // SAFETY (here and below): every block has its gap, its flag and so on, and rows lie
                 // within the columns, as the caller of `sweep` vouches.
                 let live = unsafe { group.live.get_unchecked_mut(block) };
                 if unsafe { *group.gap.get_unchecked(block) } > closed && !*live {
@@ -76,7 +76,7 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
                 let distance = separation.norm();
                 let overlap = radius_i + radius_j - distance;
                 // Idle lanes are out of any reach.
-                let filled = filled_lanes::<R>(count - block * WIDTH);
+                let filled = filled_lanes::<R>(unsafe { *group.filled.get_unchecked(block) });
                 let overlap = R::select(filled, overlap, reach + reach - radius_i);
                 let acts = overlap.gt(reach).any();
                 if !acts && !*live {
@@ -118,6 +118,6 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
             unsafe { batch.respond::<N, RESISTANCE, LEDGER>(&response, &mut group.memory, &mut energies) };
             unsafe { batch.add_up::<RESISTANCE, true>(&group.sums, sums) };
         }
-        group.totals = ContactTotals { energies: energies.to_lanes(), force: Vector3::zero() };
+        group.energies = energies.to_lanes();
     }
 }

@@ -3,24 +3,24 @@
 use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance};
 use pulvis_math::{Kernel, Mask, Octet, Vector3};
 
-use super::super::block::{WIDTH, filled_lanes};
+use super::super::block::{QUAD, filled_lanes};
 use super::batch::{Batch, Gathered, Response, gather};
-use super::{ContactTotals, Loop, WallMotionNow};
+use super::{Loop, WallMotionNow};
 use crate::shared::Shared;
 
 /// The loop over a group, with the type of its law.
-pub(super) struct WallSweep<'a>(pub(super) Loop<'a>, pub(super) WallMotionNow);
+pub(super) struct WallSweep<'a>(pub(super) Loop<'a>, pub(super) &'a [WallMotionNow]);
 
 impl NormalLawVisitor for WallSweep<'_> {
     type Output = ();
     fn visit<N: NormalLaw>(self, law: N) {
-        let Self(contacts, wall) = self;
+        let Self(contacts, walls) = self;
         let (level, set) =
             (contacts.group.model.composition.resistance_level(), contacts.advance.instructions);
         match level {
-            resistance::NONE => set.run(WallLoop::<N, { resistance::NONE }> { law, contacts, wall }),
-            resistance::SLIDING => set.run(WallLoop::<N, { resistance::SLIDING }> { law, contacts, wall }),
-            _ => set.run(WallLoop::<N, { resistance::ALL }> { law, contacts, wall }),
+            resistance::NONE => set.run(WallLoop::<N, { resistance::NONE }> { law, contacts, walls }),
+            resistance::SLIDING => set.run(WallLoop::<N, { resistance::SLIDING }> { law, contacts, walls }),
+            _ => set.run(WallLoop::<N, { resistance::ALL }> { law, contacts, walls }),
         }
     }
 }
@@ -29,7 +29,7 @@ impl NormalLawVisitor for WallSweep<'_> {
 struct WallLoop<'a, N, const RESISTANCE: u8> {
     law: N,
     contacts: Loop<'a>,
-    wall: WallMotionNow,
+    walls: &'a [WallMotionNow],
 }
 
 impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> {
@@ -37,17 +37,16 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
 
     #[inline(always)]
     fn run<R: Octet>(self) {
-        let Self { law, contacts: Loop { group, sums, moving, advance, closed, .. }, wall } = self;
+        let Self { law, contacts: Loop { group, sums, moving, advance, closed, .. }, walls } = self;
         let sums = Shared::new(sums);
         let (composition, advance) = (group.model.composition, *advance);
         let turning_dashpots = composition.has_resistance_dashpot();
         let reach = R::splat(-composition.noncontact.reach());
         let response = Response { law, composition, layout: group.layout, time_step: advance.time_step };
-        let normal = Vector3::<R>::splat(wall.normal);
-        let wall_now = Vector3::<R>::splat(wall.velocity);
-        let wall_mid = Vector3::<R>::splat(wall.velocity_mid);
         let mut energies = ContactEnergies::<R>::default();
-        let mut total = Vector3::<R>::zero();
+        group.wall_forces.fill(Vector3::zero());
+        // The forces of one wall at a time.
+        let (mut at_wall, mut total) = (0, Vector3::<R>::zero());
         let mut batch = Batch::<R>::new();
         let blocks = group.rows.len();
         let mut next = 0;
@@ -58,11 +57,13 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
                 if group.gap[block] > closed && !group.live[block] {
                     continue;
                 }
-                let [rows, _] = &group.rows[block].0;
+                let [rows, [wall, ..]] = &group.rows[block].0;
+                let wall = walls[(wall / QUAD) as usize];
+                let normal = Vector3::<R>::splat(wall.normal);
                 // SAFETY (here and below): rows lie within the columns, as the caller of `sweep` vouches.
                 let (centre, radius) = unsafe { gather::<R>(moving.place, rows) };
                 let overlap = radius - (centre.dot(normal) - R::splat(wall.offset));
-                let valid = filled_lanes::<R>(group.len() - block * WIDTH);
+                let valid = filled_lanes::<R>(group.filled[block]);
                 let overlap = R::select(valid, overlap, reach + reach - radius);
                 let acts = overlap.gt(reach).any();
                 if !acts && !group.live[block] {
@@ -84,8 +85,8 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
                     inverse_distance: R::zero(),
                     radius_i: radius,
                     radius_j: R::zero(),
-                    velocity: velocity - wall_now,
-                    velocity_mid: mid - wall_mid,
+                    velocity: velocity - Vector3::splat(wall.velocity),
+                    velocity_mid: mid - Vector3::splat(wall.velocity_mid),
                     spin_i: spin,
                     spin_j: Vector3::zero(),
                     spin_i_mid: spin_mid,
@@ -95,11 +96,27 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
                 batch.push(Gathered { block, pair, motion });
             }
             // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.
-            total +=
-                unsafe { batch.respond::<N, RESISTANCE, true>(&response, &mut group.memory, &mut energies) };
+            unsafe { batch.respond::<N, RESISTANCE, true>(&response, &mut group.memory, &mut energies) };
+            for place in 0..batch.len() {
+                // SAFETY: it has just been computed.
+                let (block, force) = unsafe { batch.force(place) };
+                let wall = group.second_row(block, 0) as usize;
+                if wall != at_wall {
+                    group.wall_forces[at_wall] += sum_of(total);
+                    (at_wall, total) = (wall, Vector3::zero());
+                }
+                total += force;
+            }
+            // SAFETY: as the caller of `sweep` vouches.
             unsafe { batch.add_up::<RESISTANCE, false>(&group.sums, sums) };
         }
-        let force = Vector3::new(total.x.sum_lanes(), total.y.sum_lanes(), total.z.sum_lanes());
-        group.totals = ContactTotals { energies: energies.to_lanes(), force };
+        group.wall_forces[at_wall] += sum_of(total);
+        group.energies = energies.to_lanes();
     }
+}
+
+/// The sum of the vectors in all lanes.
+#[inline(always)]
+fn sum_of<R: Octet>(vectors: Vector3<R>) -> Vector3 {
+    Vector3::new(vectors.x.sum_lanes(), vectors.y.sum_lanes(), vectors.z.sum_lanes())
 }
