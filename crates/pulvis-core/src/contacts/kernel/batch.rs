@@ -1,7 +1,5 @@
 //! Blocks on their way through the loops: gathered, computed, added up.
 
-use std::mem::MaybeUninit;
-
 use pulvis_contact::{Composition, ContactEnergies, NormalLaw, Pair, PairMotion, resistance};
 use pulvis_math::{Octet, Quad, Row, Twin, Vector3};
 
@@ -64,19 +62,32 @@ macro_rules! add_forces {
 
 /// Some blocks.
 pub(super) struct Batch<R> {
-    gathered: [MaybeUninit<Gathered<R>>; BATCH],
-    answered: [MaybeUninit<Answered<R>>; BATCH],
+    gathered: [Gathered<R>; BATCH],
+    answered: [Answered<R>; BATCH],
     count: usize,
 }
 
 impl<R: Octet> Batch<R> {
+    /// No blocks yet.
     #[inline(always)]
     pub(super) fn new() -> Self {
-        Self {
-            gathered: [const { MaybeUninit::uninit() }; BATCH],
-            answered: [const { MaybeUninit::uninit() }; BATCH],
-            count: 0,
-        }
+        let (zero, none) = (R::zero(), Vector3::zero());
+        let motion = PairMotion {
+            normal: none,
+            overlap: zero,
+            inverse_distance: zero,
+            radius_i: zero,
+            radius_j: zero,
+            velocity: none,
+            velocity_mid: none,
+            spin_i: none,
+            spin_j: none,
+            spin_i_mid: none,
+            spin_j_mid: none,
+        };
+        let gathered = Gathered { block: 0, pair: Pair::from_sums(zero, zero), motion };
+        let answered = Answered { force: none, torque_i: none, torque_j: none };
+        Self { gathered: [gathered; BATCH], answered: [answered; BATCH], count: 0 }
     }
 
     #[inline(always)]
@@ -84,10 +95,12 @@ impl<R: Octet> Batch<R> {
         self.count == BATCH
     }
 
+    /// Room for one more block. What nobody fills in of any block stays zero: what a contact has no use for
+    /// is not written again and again.
     #[inline(always)]
-    pub(super) fn push(&mut self, gathered: Gathered<R>) {
-        self.gathered[self.count].write(gathered);
+    pub(super) fn add(&mut self) -> &mut Gathered<R> {
         self.count += 1;
+        &mut self.gathered[self.count - 1]
     }
 
     /// Computes all blocks, updates their `memory`, and adds their energies to `energies` if the ledger is
@@ -104,8 +117,7 @@ impl<R: Octet> Batch<R> {
     ) {
         let columns = response.layout.columns();
         for place in 0..self.count {
-            // SAFETY: the first `count` have been gathered.
-            let gathered = unsafe { self.gathered[place].assume_init_ref() };
+            let gathered = &self.gathered[place];
             // SAFETY: the caller's.
             let memory =
                 unsafe { memory.get_unchecked_mut(gathered.block * columns..(gathered.block + 1) * columns) };
@@ -118,11 +130,8 @@ impl<R: Octet> Batch<R> {
                 &mut before,
             );
             response.layout.store::<R, N::Memory<R>, RESISTANCE>(&before, memory);
-            self.answered[place].write(Answered {
-                force: answer.force,
-                torque_i: answer.torque_i,
-                torque_j: answer.torque_j,
-            });
+            self.answered[place] =
+                Answered { force: answer.force, torque_i: answer.torque_i, torque_j: answer.torque_j };
             if LEDGER {
                 *energies += answer.energies;
             }
@@ -135,16 +144,10 @@ impl<R: Octet> Batch<R> {
         self.count
     }
 
-    /// A block, and the forces on its first bodies [N].
-    ///
-    /// # Safety
-    /// There is such a block, and it has been computed.
+    /// A block, and the forces on its first bodies [N] once they have been computed.
     #[inline(always)]
-    pub(super) unsafe fn force(&self, place: usize) -> (usize, Vector3<R>) {
-        // SAFETY: the caller's.
-        unsafe {
-            (self.gathered[place].assume_init_ref().block, self.answered[place].assume_init_ref().force)
-        }
+    pub(super) fn force(&self, place: usize) -> (usize, Vector3<R>) {
+        (self.gathered[place].block, self.answered[place].force)
     }
 
     /// Adds the loads to `sums`, at the `places` of each block; the batch is empty afterwards.
@@ -158,10 +161,7 @@ impl<R: Octet> Batch<R> {
         sums: Shared<'_, Load>,
     ) {
         for place in 0..self.count {
-            // SAFETY: the first `count` have been gathered and computed.
-            let (block, answer) = unsafe {
-                (self.gathered[place].assume_init_ref().block, self.answered[place].assume_init_ref())
-            };
+            let (block, answer) = (self.gathered[place].block, &self.answered[place]);
             // SAFETY: the caller's.
             let [first, second] = unsafe { &places.get_unchecked(block).0 };
             if RESISTANCE == resistance::NONE {

@@ -1,11 +1,11 @@
 //! Contacts between particles.
 
-use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance};
-use pulvis_math::{Kernel, Mask, Octet, Vector3};
+use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, resistance};
+use pulvis_math::{Kernel, Mask, Octet};
 
 use super::super::block::filled_lanes;
 use super::Loop;
-use super::batch::{BATCH, Batch, Gathered, Response, gather, gather_apart};
+use super::batch::{BATCH, Batch, Response, gather, gather_apart};
 use crate::shared::Shared;
 
 /// The loop over a group, with the type of its law.
@@ -86,33 +86,22 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
                 let inverse_distance = R::one() / distance;
                 let (velocity_mid, inverse_mass) = unsafe { gather_apart::<R>(moving.velocity_mid, rows) };
                 let (velocity, twice_curvature) = unsafe { gather_apart::<R>(moving.velocity, rows) };
-                let (mut spin_i_mid, mut spin_j_mid) = (Vector3::zero(), Vector3::zero());
-                let (mut spin_i, mut spin_j) = (Vector3::zero(), Vector3::zero());
+                let gathered = batch.add();
+                gathered.block = block;
+                gathered.pair = Pair::from_sums(inverse_mass, twice_curvature);
+                let motion = &mut gathered.motion;
+                motion.normal = separation * inverse_distance;
+                (motion.overlap, motion.inverse_distance) = (overlap, inverse_distance);
+                (motion.radius_i, motion.radius_j) = (radius_i, radius_j);
+                (motion.velocity, motion.velocity_mid) = (velocity, velocity_mid);
                 if RESISTANCE != resistance::NONE {
-                    spin_i_mid = unsafe { gather::<R>(moving.spin_mid, first) }.0;
-                    spin_j_mid = unsafe { gather::<R>(moving.spin_mid, second) }.0;
+                    motion.spin_i_mid = unsafe { gather::<R>(moving.spin_mid, first) }.0;
+                    motion.spin_j_mid = unsafe { gather::<R>(moving.spin_mid, second) }.0;
                     if turning_dashpots {
-                        spin_i = unsafe { gather::<R>(moving.spin, first) }.0;
-                        spin_j = unsafe { gather::<R>(moving.spin, second) }.0;
+                        motion.spin_i = unsafe { gather::<R>(moving.spin, first) }.0;
+                        motion.spin_j = unsafe { gather::<R>(moving.spin, second) }.0;
                     }
                 }
-                batch.push(Gathered {
-                    block,
-                    pair: Pair::from_sums(inverse_mass, twice_curvature),
-                    motion: PairMotion {
-                        normal: separation * inverse_distance,
-                        overlap,
-                        inverse_distance,
-                        radius_i,
-                        radius_j,
-                        velocity,
-                        velocity_mid,
-                        spin_i,
-                        spin_j,
-                        spin_i_mid,
-                        spin_j_mid,
-                    },
-                });
             }
             // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.
             unsafe { batch.respond::<N, RESISTANCE, LEDGER>(&response, &mut group.memory, &mut energies) };

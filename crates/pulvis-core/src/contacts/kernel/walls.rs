@@ -1,10 +1,10 @@
 //! Contacts with walls.
 
-use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance};
+use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, resistance};
 use pulvis_math::{Kernel, Mask, Octet, Vector3};
 
 use super::super::block::{QUAD, filled_lanes};
-use super::batch::{Batch, Gathered, Response, gather};
+use super::batch::{Batch, Response, gather};
 use super::{Loop, WallMotionNow};
 use crate::shared::Shared;
 
@@ -72,34 +72,25 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
                 group.live[block] = acts;
                 let (mid, inverse_mass) = unsafe { gather::<R>(moving.velocity_mid, rows) };
                 let (velocity, inverse_radius) = unsafe { gather::<R>(moving.velocity, rows) };
-                let (mut spin_mid, mut spin) = (Vector3::zero(), Vector3::zero());
+                // What a wall has none of stays zero.
+                let gathered = batch.add();
+                gathered.block = block;
+                gathered.pair = Pair::wall_from_inverses(inverse_mass, inverse_radius);
+                let motion = &mut gathered.motion;
+                (motion.normal, motion.overlap, motion.radius_i) = (normal, overlap, radius);
+                motion.velocity = velocity - Vector3::splat(wall.velocity);
+                motion.velocity_mid = mid - Vector3::splat(wall.velocity_mid);
                 if RESISTANCE != resistance::NONE {
-                    spin_mid = unsafe { gather::<R>(moving.spin_mid, rows) }.0;
+                    motion.spin_i_mid = unsafe { gather::<R>(moving.spin_mid, rows) }.0;
                     if turning_dashpots {
-                        spin = unsafe { gather::<R>(moving.spin, rows) }.0;
+                        motion.spin_i = unsafe { gather::<R>(moving.spin, rows) }.0;
                     }
                 }
-                let motion = PairMotion {
-                    normal,
-                    overlap,
-                    inverse_distance: R::zero(),
-                    radius_i: radius,
-                    radius_j: R::zero(),
-                    velocity: velocity - Vector3::splat(wall.velocity),
-                    velocity_mid: mid - Vector3::splat(wall.velocity_mid),
-                    spin_i: spin,
-                    spin_j: Vector3::zero(),
-                    spin_i_mid: spin_mid,
-                    spin_j_mid: Vector3::zero(),
-                };
-                let pair = Pair::wall_from_inverses(inverse_mass, inverse_radius);
-                batch.push(Gathered { block, pair, motion });
             }
             // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.
             unsafe { batch.respond::<N, RESISTANCE, true>(&response, &mut group.memory, &mut energies) };
             for place in 0..batch.len() {
-                // SAFETY: it has just been computed.
-                let (block, force) = unsafe { batch.force(place) };
+                let (block, force) = batch.force(place);
                 let wall = group.second_row(block, 0) as usize;
                 if wall != at_wall {
                     group.wall_forces[at_wall] += sum_of(total);
