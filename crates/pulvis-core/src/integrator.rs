@@ -159,7 +159,8 @@ impl<const FINISH: bool, const BEGIN: bool> Kernel for Kicks<'_, FINISH, BEGIN> 
                 velocity_now.store(&mut drift);
                 let speed = drift.vector.norm_squared();
                 // Not `>`: a NaN must not be passed over.
-                if !(speed <= kicked.fastest) {
+                let slower = speed <= kicked.fastest;
+                if !slower {
                     kicked.fastest = if speed.is_nan() { f64::INFINITY } else { speed };
                 }
             }

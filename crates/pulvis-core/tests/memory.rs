@@ -44,6 +44,18 @@ fn how_often_candidates_are_listed_does_not_matter() {
 }
 
 #[test]
+fn what_flies_from_one_piece_of_rows_into_another_is_met_there() {
+    // Several pieces: each knows for itself by how much its gaps can have closed.
+    let edge = 24.0 * RADIUS;
+    let powder = Setup { walls: cube_of_walls(edge), ..implosion(600, edge, 5, viscous_luding()) };
+    let both = thin_and_thick(&powder, 2_000);
+    assert_same(&powder.domain, &both, 1e-9);
+    let [thin, thick] = both.map(|mut simulation| simulation.ledger());
+    assert!(thin.dissipated_plastic > 0.02 * thin.scale, "{thin:?}");
+    assert!((thin.dissipated() / thick.dissipated() - 1.0).abs() < 1e-9);
+}
+
+#[test]
 fn an_aggregate_that_flies_through_periodic_boundaries_stays_the_same() {
     let mut model = viscous_luding();
     model.composition.noncontact = NonContact::Reversible(Reversible { f_a: 1e-4, kc_a: 20.0 });

@@ -32,7 +32,8 @@ impl Moved {
     #[inline(always)]
     pub(crate) fn take_in(&mut self, way: f64) {
         // Not `>`: a NaN must not be passed over.
-        if !(way <= self.second) {
+        let shorter = way <= self.second;
+        if !shorter {
             let way = if way.is_nan() { f64::INFINITY } else { way };
             self.second = way.min(self.longest);
             self.longest = way.max(self.longest);

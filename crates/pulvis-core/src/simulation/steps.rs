@@ -75,8 +75,9 @@ impl Simulation {
             self.survey();
         }
         let mut closed = self.closed(walls);
-        // Not `>`: what is no number is to be found.
-        if !surveyed && !(closed <= self.skin.thickness) {
+        // What is no number does not hold either.
+        let holds = closed <= self.skin.thickness;
+        if !surveyed && !holds {
             self.survey();
             closed = self.closed(walls);
         }
