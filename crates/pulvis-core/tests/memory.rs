@@ -44,15 +44,23 @@ fn how_often_candidates_are_listed_does_not_matter() {
 }
 
 #[test]
-fn what_flies_from_one_piece_of_rows_into_another_is_met_there() {
-    // Several pieces: each knows for itself by how much its gaps can have closed.
+fn what_flies_out_of_one_piece_of_rows_is_met_in_another() {
+    // Two pieces below, two above, and a gap between: each piece knows for itself by how much its gaps can
+    // have closed.
     let edge = 24.0 * RADIUS;
-    let powder = Setup { walls: cube_of_walls(edge), ..implosion(600, edge, 5, viscous_luding()) };
-    let both = thin_and_thick(&powder, 2_000);
-    assert_same(&powder.domain, &both, 1e-9);
-    let [thin, thick] = both.map(|mut simulation| simulation.ledger());
-    assert!(thin.dissipated_plastic > 0.02 * thin.scale, "{thin:?}");
-    assert!((thin.dissipated() / thick.dissipated() - 1.0).abs() < 1e-9);
+    for [up, down] in [[1.5, 0.0], [0.0, 1.5], [0.8, 0.8]] {
+        let mut powder = Setup { walls: cube_of_walls(edge), ..implosion(600, edge, 5, viscous_luding()) };
+        powder.particles.sort_by(|one, other| one.position.z.total_cmp(&other.position.z));
+        powder.particles.drain(256..344);
+        for (place, particle) in powder.particles.iter_mut().enumerate() {
+            particle.velocity = vector(0.0, 0.0, if place < 256 { up } else { -down });
+        }
+        let both = thin_and_thick(&powder, 2_500);
+        assert_same(&powder.domain, &both, 1e-9);
+        let [thin, thick] = both.map(|mut simulation| simulation.ledger());
+        assert!(thin.dissipated_plastic > 0.02 * thin.scale, "{thin:?}");
+        assert!((thin.dissipated() / thick.dissipated() - 1.0).abs() < 1e-9);
+    }
 }
 
 #[test]
