@@ -8,12 +8,14 @@ mod layout;
 mod leftovers;
 mod piece;
 mod rebuild;
+mod sweep;
 mod table;
 mod view;
 
 pub use interactions::Interactions;
 pub(crate) use kernel::{Advance, Moving, WallMotionNow};
 pub(crate) use rebuild::MemoryStore;
-pub(crate) use table::{ContactTable, Surroundings, Sweep};
+pub(crate) use sweep::Sweep;
+pub(crate) use table::{ContactTable, Surroundings};
 pub use view::{ContactPartner, ContactView};
 pub(crate) use view::{Views, view_contacts};

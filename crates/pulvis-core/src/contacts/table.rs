@@ -1,21 +1,19 @@
 //! All candidate contacts: listed anew when bodies have moved, and swept every step.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 
 use pulvis_contact::ContactEnergies;
 use pulvis_math::{InstructionSet, Lanes, Vector3};
 
 use super::Interactions;
-use super::block::{ContactGroup, Partner};
-use super::kernel::{self, Advance, Ahead, Moving, WallMotionNow};
+use super::block::ContactGroup;
 use super::leftovers::Leftovers;
 use super::piece::{Closed, Incoming, Piece, cut};
 use super::rebuild::MemoryStore;
+use super::sweep::{Countdown, Halos, Sweep, Sweeping};
 use crate::domain::Images;
 use crate::neighbours::{CellGrid, Moved};
 use crate::particles::{Load, MaterialIndex, Particles};
-use crate::phases::Stopwatch;
 use crate::shared::Shared;
 use crate::team::Team;
 use crate::walls::Wall;
@@ -35,46 +33,6 @@ pub(crate) struct ContactTable {
     leftovers: Leftovers,
 }
 
-/// Pieces whose contacts are still to be computed before the loads on a piece are complete.
-#[derive(Debug, Default)]
-struct Countdown {
-    left: AtomicU32,
-    start: u32,
-    /// The member of the team that has computed the piece's own contacts.
-    member: AtomicUsize,
-}
-
-impl Clone for Countdown {
-    fn clone(&self) -> Self {
-        Self::from(self.start)
-    }
-}
-
-impl Countdown {
-    fn from(start: u32) -> Self {
-        Self { left: AtomicU32::new(start), start, ..Self::default() }
-    }
-
-    /// Whether this was the last one; the countdown then begins anew.
-    fn is_over(&self) -> bool {
-        // What others wrote before they counted down is seen by the last one.
-        let over = self.left.fetch_sub(1, Ordering::AcqRel) == 1;
-        if over {
-            self.begin_anew();
-        }
-        over
-    }
-
-    /// Whether only the piece itself has still to count down; then nobody else will.
-    fn has_one_left(&self) -> bool {
-        self.left.load(Ordering::Acquire) == 1
-    }
-
-    fn begin_anew(&self) {
-        self.left.store(self.start, Ordering::Relaxed);
-    }
-}
-
 /// What the list of candidates depends on.
 #[derive(Clone, Copy)]
 pub(crate) struct Surroundings<'a> {
@@ -88,18 +46,6 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) images: Images,
     pub(crate) skin: f64,
     pub(crate) instructions: InstructionSet,
-}
-
-/// What a sweep over all contacts works on.
-#[derive(Clone, Copy)]
-pub(crate) struct Sweep<'a> {
-    /// Room for loads that are not complete at once: for all rows, and for all halos behind them.
-    pub(crate) loads: Shared<'a, Load>,
-    pub(crate) moving: Moving<'a>,
-    pub(crate) walls: &'a [WallMotionNow],
-    pub(crate) advance: &'a Advance,
-    /// Whether `loads` are to hold those on all rows at the end, as they were finished.
-    pub(crate) keep: bool,
 }
 
 impl ContactTable {
@@ -180,88 +126,24 @@ impl ContactTable {
         team: &Team,
         finish: impl Fn(usize, Range<usize>, &mut [Load]) + Sync,
     ) {
-        let Sweep { loads, moving, walls, advance, keep } = *sweep;
         let count = self.pieces.len();
         self.sums.resize_with(team.threads(), Vec::new);
         self.leftovers.clear(team.threads(), count);
-        let (pieces, scratch) = (Shared::new(&mut self.pieces), Shared::new(&mut self.sums));
-        let leftovers = &self.leftovers;
-        let (pending, row_count) = (&self.pending, self.row_count);
-        let halos = Halos { rows: &self.halos, starts: &self.halo_starts };
-        let finish_stored = |number: usize| {
-            // SAFETY: all pieces with a part in this one have counted down, and this thread alone has seen
-            // the end of the countdown, or taken the piece from those that were left.
-            unsafe {
-                let piece = pieces.get(number);
-                let own = loads.range_mut(piece.rows.clone());
-                complete(piece, own, halos.rows, loads, row_count);
-                finish(number, piece.rows.clone(), own);
-            }
+        let sweeping = Sweeping {
+            sweep: *sweep,
+            pieces: Shared::new(&mut self.pieces),
+            sums: Shared::new(&mut self.sums),
+            pending: &self.pending,
+            leftovers: &self.leftovers,
+            halos: Halos { rows: &self.halos, starts: &self.halo_starts, row_count: self.row_count },
+            finish,
         };
-        let count_down = |member: usize, number: usize| {
-            if pending[number].is_over() {
-                let owner = pending[number].member.load(Ordering::Relaxed);
-                if owner == member {
-                    leftovers.count_finished();
-                    finish_stored(number);
-                } else {
-                    leftovers.leave(owner, number);
-                }
-            }
-        };
-        let compute = |member: usize, number: usize| {
-            // SAFETY: every member has sums of its own.
-            let sums = unsafe { scratch.get_mut(member) };
-            // SAFETY: nobody looks at a piece before it has counted down below.
-            let Piece { rows, groups, phases, closed, .. } = unsafe { pieces.get_mut(number) };
-            sums.clear();
-            sums.resize(rows.len() + halos.of(number).len(), Load::default());
-            let mut clock = Stopwatch::start(advance.timed);
-            for (place, group) in groups.iter_mut().enumerate() {
-                // The largest group comes first, and the next piece is mostly the one behind this.
-                let ahead = match place {
-                    0 => Ahead { rows: rows.end..rows.end + rows.len(), halo: halos.of(number + 1) },
-                    _ => Ahead::default(),
-                };
-                // SAFETY: rows and places were listed for these columns and sums. `finish`, which writes
-                // rows, is not called for rows of this piece or its halo before it has counted down.
-                unsafe { kernel::sweep(group, sums, moving, walls, advance, *closed, ahead) };
-                clock.lap(match group.partner {
-                    Partner::Particle => &mut phases.pairs,
-                    Partner::Wall => &mut phases.walls,
-                });
-            }
-            let rows = rows.clone();
-            let (own, halo) = sums.split_at_mut(rows.len());
-            let start = row_count + halos.starts[number];
-            // SAFETY: only this piece writes these places; they are read after it has counted down.
-            unsafe { loads.range_mut(start..start + halo.len()) }.copy_from_slice(halo);
-            // SAFETY: from here on the piece is only read, until the next sweep.
-            let piece = unsafe { pieces.get(number) };
-            if pending[number].has_one_left() {
-                pending[number].begin_anew();
-                // SAFETY (here and below): all pieces with a part in this one have counted down, and this
-                // thread alone has seen the end of the countdown.
-                unsafe { complete(piece, own, halos.rows, loads, row_count) };
-                finish(number, rows.clone(), own);
-                if keep {
-                    // SAFETY: the loads of these rows, which this thread alone has finished.
-                    unsafe { loads.range_mut(rows) }.copy_from_slice(own);
-                }
-                leftovers.count_finished();
-            } else {
-                // SAFETY: the sums of these rows, which are not complete.
-                unsafe { loads.range_mut(rows) }.copy_from_slice(own);
-                pending[number].member.store(member, Ordering::Relaxed);
-                count_down(member, number);
-            }
-            for &later in &piece.dependents {
-                count_down(member, later as usize);
-            }
-        };
+        // SAFETY: every member is told its own number, and every piece is computed once.
+        let compute = |member, number| unsafe { sweeping.compute(member, number) };
         team.for_each_number_in_turns(count, compute, |member, turn| {
-            while let Some(number) = leftovers.take(member, turn) {
-                finish_stored(number);
+            while let Some(number) = sweeping.leftovers.take(member, turn) {
+                // SAFETY: nobody else has taken it.
+                unsafe { sweeping.finish_stored(number) };
             }
         });
     }
@@ -294,44 +176,5 @@ impl ContactTable {
         let sums: usize = self.sums.iter().map(|sums| size_of_val(&sums[..])).sum();
         let halos = 2 * size_of_val(&self.halos[..]) + sums;
         self.groups().map(ContactGroup::memory_size).sum::<usize>() + halos
-    }
-}
-
-/// The halos of all pieces.
-#[derive(Clone, Copy)]
-struct Halos<'a> {
-    rows: &'a [u32],
-    starts: &'a [usize],
-}
-
-impl<'a> Halos<'a> {
-    /// The halo of a piece; none behind the last piece.
-    fn of(self, number: usize) -> &'a [u32] {
-        match self.starts.get(number..number + 2) {
-            Some(&[start, end]) => &self.rows[start..end],
-            _ => &[],
-        }
-    }
-}
-
-/// Adds to the loads on the rows of a piece what earlier pieces' halos hold of them, in their order.
-///
-/// # Safety
-/// All contacts of the piece and of those with a part in it have been computed.
-unsafe fn complete(
-    piece: &Piece,
-    own: &mut [Load],
-    halos: &[u32],
-    loads: Shared<'_, Load>,
-    row_count: usize,
-) {
-    for Incoming { slots } in &piece.incoming {
-        for slot in slots.clone() {
-            // SAFETY: the caller's; places of halos lie behind those of all rows.
-            let part = unsafe { loads.get(row_count + slot) };
-            let sum = &mut own[halos[slot] as usize - piece.rows.start];
-            sum.force.vector += part.force.vector;
-            sum.torque.vector += part.torque.vector;
-        }
     }
 }
