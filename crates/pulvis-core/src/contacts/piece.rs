@@ -134,8 +134,7 @@ impl Piece {
                 let lower_first = id[one as usize] < id[other as usize];
                 let rows = if lower_first { [one, other] } else { [other, one] };
                 let candidate = Candidate { rows, sums: rows.map(|row| self.place_of_sum(row)), gap };
-                let [first, second] = rows.map(|row| around.order[row as usize]);
-                let record = memory.find(first, second, &group);
+                let record = memory.find(rows.map(|row| around.order[row as usize]), &group);
                 group.push(&candidate, record.as_deref());
             }
             self.keep(group);
@@ -165,7 +164,7 @@ impl Piece {
                     let Quad { vector, scalar } = particles.place[row];
                     let gap = vector.dot(wall.normal) - scalar - touch;
                     if gap < skin {
-                        let record = memory.find(around.order[row], wall_partner(number), group);
+                        let record = memory.find([around.order[row], wall_partner(number)], group);
                         let sum = (row - self.rows.start) as u32;
                         let candidate = Candidate { rows: [row as u32, number as u32], sums: [sum, 0], gap };
                         group.push(&candidate, record.as_deref());

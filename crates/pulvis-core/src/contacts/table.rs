@@ -60,8 +60,8 @@ impl ContactTable {
     }
 
     /// Lets `store` remember what the contacts remember.
-    pub(crate) fn remember(&self, store: &mut MemoryStore, rows: usize) {
-        store.gather(self.groups(), rows);
+    pub(crate) fn remember(&self, store: &mut MemoryStore, team: &Team) {
+        store.gather(&self.pieces, team);
     }
 
     /// Lists all candidates within reach and skin; contacts keep their `memory`. Answers with the number

@@ -33,7 +33,7 @@ impl Simulation {
         let mut clock = Stopwatch::start(self.phases.is_some());
         self.phases = self.phases();
         self.choose_skin();
-        self.contacts.remember(&mut self.memory, self.particles.len());
+        self.contacts.remember(&mut self.memory, &self.team);
         self.rebuild();
         self.rebuilds += 1;
         if let Some(phases) = &mut self.phases {
