@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
 use super::operators::{lane_by_lane, octet_operators};
-use super::{Kernel, Octet, Quad, Row};
+use super::{Kernel, Octet, Quad, Row, side_by_side};
 use crate::lanes::Lanes;
 use crate::real::{Mask, Real};
 
@@ -258,16 +258,6 @@ impl Octet for Ymm2 {
 
     #[inline(always)]
     fn twins(first: [Self; 4], second: [Self; 4]) -> [Self::Twin; 8] {
-        let (a, b) = (Self::rows(first), Self::rows(second));
-        [
-            [a[0], b[0]],
-            [a[1], b[1]],
-            [a[2], b[2]],
-            [a[3], b[3]],
-            [a[4], b[4]],
-            [a[5], b[5]],
-            [a[6], b[6]],
-            [a[7], b[7]],
-        ]
+        side_by_side(Self::rows(first), Self::rows(second))
     }
 }

@@ -89,6 +89,21 @@ impl<R: Row> Twin for [R; 2] {
     }
 }
 
+/// The twins of eight rows and of eight others.
+#[inline(always)]
+fn side_by_side<R: Row>(a: [R; 8], b: [R; 8]) -> [[R; 2]; 8] {
+    [
+        [a[0], b[0]],
+        [a[1], b[1]],
+        [a[2], b[2]],
+        [a[3], b[3]],
+        [a[4], b[4]],
+        [a[5], b[5]],
+        [a[6], b[6]],
+        [a[7], b[7]],
+    ]
+}
+
 /// Eight numbers at a time, one a lane.
 pub trait Octet: Real {
     /// Four numbers at a time.
@@ -237,6 +252,7 @@ mod tests {
             let (one, zero) = (R::one(), R::zero());
             let flag = |mask: R::Mask| R::select(mask, one, zero);
             let columns = R::columns(R::rows([x, y, x + y, x * y]));
+            let apart = R::apart(R::rows([x, y, x + y, x * y]), R::rows([y, x * y, x, x + y]));
             let mut sum = x;
             sum += y;
             sum -= one;
@@ -265,13 +281,29 @@ mod tests {
                 columns[1],
                 columns[2],
                 columns[3],
+                apart[0],
+                apart[1],
+                apart[2],
+                apart[3],
             ];
             let bits = |answer: R| {
                 let mut stored = Lanes::default();
                 answer.store(&mut stored);
                 stored.0.map(f64::to_bits)
             };
-            answers.map(bits).to_vec()
+            let mut all = answers.map(bits).to_vec();
+            // Loads that are added up: to some, and from others.
+            let mut sums = [Quad::new(Vector3::new(0.1, 0.2, 0.3), 0.4); 2];
+            for twin in R::twins([x, y, x + y, x * y], [y, x * y, x, x + y]) {
+                for sum in [R::Twin::load(&sums).plus(twin), R::Twin::load(&sums).minus_plus(twin)] {
+                    sum.store(&mut sums);
+                    let [one, other] = sums;
+                    let [a, b] =
+                        [one, other].map(|quad| [quad.vector.x, quad.vector.y, quad.vector.z, quad.scalar]);
+                    all.push([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]].map(f64::to_bits));
+                }
+            }
+            all
         }
     }
 
