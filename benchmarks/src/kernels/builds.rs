@@ -81,12 +81,9 @@ impl<S, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, S, N, 
             for (group, stored) in motions.iter().enumerate() {
                 let [inverse_mass_i, inverse_mass_j, inverse_radius_i, inverse_radius_j] =
                     &contacts.inverses[group];
-                let pair = Pair::spheres_from_inverses(
-                    inverse_mass_i.load(),
-                    inverse_mass_j.load(),
-                    inverse_radius_i.load(),
-                    inverse_radius_j.load(),
-                );
+                let inverse_masses: R = inverse_mass_i.load() + inverse_mass_j.load();
+                let inverse_radii: R = inverse_radius_i.load() + inverse_radius_j.load();
+                let pair = Pair::from_sums(inverse_masses, inverse_radii);
                 let motion = load_motion::<R, S>(stored);
                 let slots = &mut store.memory[group * columns..(group + 1) * columns];
                 let mut memory = places.load::<R, S, N::Memory<R>>(slots);

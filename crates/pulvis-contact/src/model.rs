@@ -105,7 +105,7 @@ pub struct ContactResponse<R> {
     pub force: Vector3<R>,
     /// Torque on i [N m].
     pub torque_i: Vector3<R>,
-    /// Torque on j [N m].
+    /// Torque on j [N m]; that on a wall means nothing.
     pub torque_j: Vector3<R>,
     /// Energies.
     pub energies: ContactEnergies<R>,

@@ -18,28 +18,13 @@ impl<R: Real> Pair<R> {
     #[inline(always)]
     pub fn spheres(mass_i: R, mass_j: R, radius_i: R, radius_j: R) -> Self {
         let one = R::one();
-        Self::spheres_from_inverses(one / mass_i, one / mass_j, one / radius_i, one / radius_j)
+        Self::from_sums(one / mass_i + one / mass_j, one / radius_i + one / radius_j)
     }
 
     /// A sphere with mass [kg] and radius [m] at a plane wall that does not give way.
     #[inline(always)]
     pub fn wall(mass: R, radius: R) -> Self {
         Self::wall_from_inverses(R::one() / mass, R::one() / radius)
-    }
-
-    /// Two spheres, from one over their masses [1/kg] and one over their radii [1/m]. The same bits as
-    /// of [`spheres`](Self::spheres).
-    #[inline(always)]
-    pub fn spheres_from_inverses(
-        inverse_mass_i: R,
-        inverse_mass_j: R,
-        inverse_radius_i: R,
-        inverse_radius_j: R,
-    ) -> Self {
-        Self {
-            inverse_reduced_mass: inverse_mass_i + inverse_mass_j,
-            mean_curvature: R::splat(0.5) * (inverse_radius_i + inverse_radius_j),
-        }
     }
 
     /// A sphere at a plane wall, from one over its mass [1/kg] and one over its radius [1/m]. The same
@@ -118,7 +103,7 @@ mod tests {
         let (mass_i, mass_j, radius_i, radius_j): (f64, f64, f64, f64) = (3.1e-6, 7.3e-6, 0.7e-3, 1.9e-3);
         assert_eq!(
             Pair::spheres(mass_i, mass_j, radius_i, radius_j),
-            Pair::spheres_from_inverses(1.0 / mass_i, 1.0 / mass_j, 1.0 / radius_i, 1.0 / radius_j)
+            Pair::from_sums(1.0 / mass_i + 1.0 / mass_j, 1.0 / radius_i + 1.0 / radius_j)
         );
         assert_eq!(Pair::wall(mass_i, radius_i), Pair::wall_from_inverses(1.0 / mass_i, 1.0 / radius_i));
     }

@@ -110,6 +110,7 @@ impl ContactGroup {
             + size_of_val(&self.memory[..])
             + size_of_val(&self.gap[..])
             + self.live.len()
+            + self.filled.len()
     }
 
     /// Adds a candidate contact, with its memory where it has any.
