@@ -7,6 +7,7 @@
 pub mod arrangement;
 mod background;
 mod contacts;
+mod counting_sort;
 mod domain;
 mod integrator;
 mod ledger;

@@ -1,5 +1,7 @@
 //! Candidate contacts of one contact model, in blocks of eight.
 
+use std::borrow::Cow;
+
 use pulvis_contact::{ContactEnergies, ContactModel};
 use pulvis_math::{Lanes, Mask, Octet, Vector3};
 
@@ -113,38 +115,51 @@ impl ContactGroup {
             + self.filled.len()
     }
 
-    /// Adds a candidate contact, with its memory where it has any.
-    pub(crate) fn push(&mut self, candidate: &Candidate, remembered: Option<&[f64]>) {
-        let rows = candidate.rows.map(|row| row * QUAD);
-        let sums = candidate.sums.map(|place| place * LOAD);
-        let last = self.rows.last().zip(self.filled.last());
-        let goes_on = last.is_some_and(|(last, &filled)| {
-            usize::from(filled) < WIDTH && (self.partner == Partner::Particle || last.0[1][0] == rows[1])
-        });
-        if !goes_on {
-            let all = |place: u32| [place; WIDTH];
-            self.rows.push(Places(rows.map(all)));
-            self.sums.push(Places(sums.map(all)));
-            self.filled.push(0);
-            self.memory.resize(self.memory.len() + self.layout.columns(), Lane::default());
-            self.live.push(false);
-            self.gap.push(candidate.gap);
-        }
-        let block = self.rows.len() - 1;
-        let lane = self.filled(block);
-        self.gap[block] = self.gap[block].min(candidate.gap);
-        for body in 0..2 {
-            self.rows[block].0[body][lane] = rows[body];
-            self.sums[block].0[body][lane] = sums[body];
-        }
-        if let Some(record) = remembered {
-            let columns = self.layout.columns();
-            for (column, &value) in self.memory[block * columns..].iter_mut().zip(record) {
-                column.0[lane] = value;
+    /// Makes room for more contacts.
+    pub(crate) fn reserve(&mut self, contacts: usize) {
+        let blocks = contacts.div_ceil(WIDTH);
+        self.rows.reserve(blocks);
+        self.sums.reserve(blocks);
+        self.filled.reserve(blocks);
+        self.memory.reserve(blocks * self.layout.columns());
+        self.live.reserve(blocks);
+        self.gap.reserve(blocks);
+    }
+
+    /// Adds a block of up to eight candidates, each with its memory where it has any.
+    #[inline(always)]
+    pub(crate) fn push_block<'a>(
+        &mut self,
+        candidates: &[Candidate],
+        memory: impl Fn(&Self, usize) -> Option<Cow<'a, [f64]>>,
+    ) {
+        let Some(first) = candidates.first() else { return };
+        let mut rows = Places(first.rows.map(|row| [row * QUAD; WIDTH]));
+        let mut sums = Places(first.sums.map(|place| [place * LOAD; WIDTH]));
+        let mut gap = f64::INFINITY;
+        for (lane, candidate) in candidates.iter().take(WIDTH).enumerate() {
+            for body in 0..2 {
+                rows.0[body][lane] = candidate.rows[body] * QUAD;
+                sums.0[body][lane] = candidate.sums[body] * LOAD;
             }
-            self.live[block] = true;
+            gap = gap.min(candidate.gap);
         }
-        self.filled[block] += 1;
+        let start = self.memory.len();
+        self.memory.resize(start + self.layout.columns(), Lane::default());
+        let mut live = false;
+        for lane in 0..candidates.len() {
+            if let Some(record) = memory(self, lane) {
+                for (column, &value) in self.memory[start..].iter_mut().zip(&*record) {
+                    column.0[lane] = value;
+                }
+                live = true;
+            }
+        }
+        self.rows.push(rows);
+        self.sums.push(sums);
+        self.filled.push(candidates.len() as u8);
+        self.live.push(live);
+        self.gap.push(gap);
     }
 
     /// Row of the first body of a contact.
@@ -169,18 +184,19 @@ impl ContactGroup {
         usize::from(self.filled[block])
     }
 
-    /// Calls `action` with block, lane and memory of every contact that remembers anything.
-    pub(crate) fn for_each_memory(&self, mut action: impl FnMut(usize, usize, &[f64])) {
-        let columns = self.layout.columns();
-        let mut record = vec![0.0; columns];
+    /// Writes down what the contacts remember that remember anything, behind what stands in `records`. Calls
+    /// `action` with block and lane of each, and the place where its record begins.
+    pub(crate) fn for_each_memory(
+        &self,
+        records: &mut Vec<f64>,
+        mut action: impl FnMut(usize, usize, usize),
+    ) {
         for block in (0..self.rows.len()).filter(|&block| self.live[block]) {
             let memory = self.columns(block);
             for lane in 0..self.filled(block) {
-                for (slot, column) in record.iter_mut().zip(memory) {
-                    *slot = column.0[lane];
-                }
-                if record.iter().any(|&value| value != 0.0) {
-                    action(block, lane, &record);
+                if memory.iter().any(|column| column.0[lane] != 0.0) {
+                    action(block, lane, records.len());
+                    records.extend(memory.iter().map(|column| column.0[lane]));
                 }
             }
         }

@@ -1,69 +1,173 @@
 //! Which of the rows that may be near each other are.
 
-use pulvis_math::{Kernel, Mask, Octet, Quad, Row, Vector3};
+use std::ops::Range;
+
+use pulvis_math::{Kernel, Lanes, Mask, Octet, Quad, Row, Vector3};
 
 use crate::domain::Images;
 use crate::neighbours::Stretch;
 
+/// Two rows near each other, the lower one first, and the gap between their surfaces [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Near {
+    pub(super) rows: [u32; 2],
+    pub(super) gap: f64,
+}
+
 /// Lists the pairs of rows whose surfaces are closer than `margin` [m].
-pub(super) struct Near<'a> {
+pub(super) struct Search<'a> {
     pub(super) stretches: &'a [Stretch],
     pub(super) places: &'a [Quad],
     pub(super) images: Images,
     pub(super) margin: f64,
-    pub(super) pairs: &'a mut Vec<[u32; 2]>,
+    pub(super) near: &'a mut Vec<Near>,
 }
 
-impl Kernel for Near<'_> {
+/// Rows that are looked at together: one bit for each.
+const CROWD: usize = u64::BITS as usize;
+const EIGHTS: usize = CROWD / 8;
+
+/// Up to [`CROWD`] rows in columns.
+#[derive(Default)]
+struct Crowd {
+    /// x, y, z of the centres and the radius [m].
+    columns: [[Lanes<8>; 4]; EIGHTS],
+    /// Squared distances from one row [m²].
+    squares: [Lanes<8>; EIGHTS],
+}
+
+impl Kernel for Search<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Octet>(self) {
-        let Self { mut stretches, places, images, margin, pairs } = self;
-        // Stretches of the same rows, one behind the other: short ones would leave most lanes idle.
-        let mut others: Vec<u32> = Vec::new();
-        while let Some(&Stretch { ones, .. }) = stretches.first() {
-            let same = stretches.iter().take_while(|stretch| stretch.ones == ones).count();
-            others.clear();
-            for stretch in &stretches[..same] {
-                others.extend(stretch.others.0..stretch.others.1);
-            }
-            stretches = &stretches[same..];
-            for some in others.chunks(8) {
-                let [x, y, z, radius] = columns::<R>(places, some);
-                let centres = Vector3::new(x, y, z);
+        let Self { mut stretches, places, images, margin, near } = self;
+        let mut others = Vec::new();
+        let mut crowd = Crowd::default();
+        while let Some(&Stretch { ones, others: first }) = stretches.first() {
+            // Stretches of the same rows, one behind the other: short ones would leave most lanes idle.
+            let count = write_out(&mut stretches, ones, &mut others);
+            for start in (0..count).step_by(CROWD) {
+                let end = count.min(start + CROWD);
+                let some = &others[start..end.next_multiple_of(8)];
+                crowd.fill::<R>(places, some);
                 for one in ones.0..ones.1 {
+                    // Only the first stretch may hold rows that are not later.
+                    let earlier = ((one + 1).clamp(first.0, first.1) - first.0) as usize;
                     let Quad { vector, scalar } = places[one as usize];
-                    let apart = images.nearest(Vector3::<R>::splat(vector) - centres).norm_squared();
-                    let near = R::splat(scalar + margin) + radius;
-                    let mut found = apart.lt(near * near).bits() & ((1 << some.len()) - 1);
-                    while found != 0 {
-                        let other = some[found.trailing_zeros() as usize];
-                        if other > one {
-                            pairs.push([one, other]);
-                        }
-                        found &= found - 1;
-                    }
+                    let found = crowd.near::<R>(end - start, vector, scalar + margin, images);
+                    let found = found & bits(earlier.saturating_sub(start)..end - start);
+                    crowd.write_down(found, (one, scalar), some, near);
                 }
             }
         }
     }
 }
 
-/// The columns of up to eight rows: the last is repeated.
+/// The rows of all stretches that come first and have the same `ones`, and their number. Behind them stands the
+/// last one, until the number is a multiple of eight.
 #[inline(always)]
-fn columns<R: Octet>(places: &[Quad], rows: &[u32]) -> [R; 4] {
-    let mut eight = [rows[rows.len() - 1]; 8];
-    eight[..rows.len()].copy_from_slice(rows);
+fn write_out(stretches: &mut &[Stretch], ones: (u32, u32), rows: &mut Vec<u32>) -> usize {
+    let mut count = 0;
+    while let Some((&Stretch { ones: same, others: (start, end) }, left)) = stretches.split_first()
+        && same == ones
+    {
+        let length = (end - start) as usize;
+        if rows.len() < count + length + 16 {
+            rows.resize(2 * (count + length + 16), 0);
+        }
+        // Eight at a time, though there may be fewer.
+        for written in (0..length).step_by(8) {
+            let row = start + written as u32;
+            rows[count + written..count + written + 8].copy_from_slice(&[
+                row,
+                row + 1,
+                row + 2,
+                row + 3,
+                row + 4,
+                row + 5,
+                row + 6,
+                row + 7,
+            ]);
+        }
+        count += length;
+        *stretches = left;
+    }
+    if count > 0 {
+        let last = rows[count - 1];
+        rows[count..count + 8].fill(last);
+    }
+    count
+}
+
+/// Ones in a range of places.
+#[inline(always)]
+fn bits(places: Range<usize>) -> u64 {
+    let below = |place: usize| u64::MAX.checked_shr((CROWD - place.min(CROWD)) as u32).unwrap_or(0);
+    below(places.end) & !below(places.start)
+}
+
+impl Crowd {
+    #[inline(always)]
+    fn fill<R: Octet>(&mut self, places: &[Quad], rows: &[u32]) {
+        for (columns, eight) in self.columns.iter_mut().zip(rows.as_chunks::<8>().0) {
+            for (column, value) in columns.iter_mut().zip(columns_of::<R>(places, eight)) {
+                value.store(column);
+            }
+        }
+    }
+
+    /// A bit for each of the first `count` rows, and perhaps for some behind them, whose centre is nearer than
+    /// `reach` [m] and its radius.
+    #[inline(always)]
+    fn near<R: Octet>(&mut self, count: usize, centre: Vector3, reach: f64, images: Images) -> u64 {
+        let (centre, reach) = (Vector3::<R>::splat(centre), R::splat(reach));
+        let mut found = 0;
+        for (eight, (columns, squares)) in
+            self.columns.iter().zip(&mut self.squares).take(count.div_ceil(8)).enumerate()
+        {
+            let [x, y, z, radius] = columns;
+            let other = Vector3::new(R::load(x), R::load(y), R::load(z));
+            let apart = images.nearest(centre - other).norm_squared();
+            let near = reach + R::load(radius);
+            found |= u64::from(apart.lt(near * near).bits()) << (8 * eight);
+            apart.store(squares);
+        }
+        found
+    }
+
+    /// Writes down the pairs of a row, given with its radius [m], and those among `rows` that were `found` near it.
+    #[inline(always)]
+    fn write_down(&self, mut found: u64, (one, radius): (u32, f64), rows: &[u32], near: &mut Vec<Near>) {
+        near.reserve(CROWD);
+        let mut count = 0;
+        let room = near.spare_capacity_mut();
+        while found != 0 {
+            let place = found.trailing_zeros() as usize;
+            found &= found - 1;
+            let (eight, lane) = (place / 8, place % 8);
+            let both = radius + self.columns[eight][3].0[lane];
+            let gap = self.squares[eight].0[lane].sqrt() - both;
+            room[count].write(Near { rows: [one, rows[place]], gap });
+            count += 1;
+        }
+        // SAFETY: so many have been written behind the last one.
+        unsafe { near.set_len(near.len() + count) };
+    }
+}
+
+/// The columns of eight rows.
+#[inline(always)]
+fn columns_of<R: Octet>(places: &[Quad], rows: &[u32; 8]) -> [R; 4] {
     R::columns([
-        R::Row::load(&places[eight[0] as usize]),
-        R::Row::load(&places[eight[1] as usize]),
-        R::Row::load(&places[eight[2] as usize]),
-        R::Row::load(&places[eight[3] as usize]),
-        R::Row::load(&places[eight[4] as usize]),
-        R::Row::load(&places[eight[5] as usize]),
-        R::Row::load(&places[eight[6] as usize]),
-        R::Row::load(&places[eight[7] as usize]),
+        R::Row::load(&places[rows[0] as usize]),
+        R::Row::load(&places[rows[1] as usize]),
+        R::Row::load(&places[rows[2] as usize]),
+        R::Row::load(&places[rows[3] as usize]),
+        R::Row::load(&places[rows[4] as usize]),
+        R::Row::load(&places[rows[5] as usize]),
+        R::Row::load(&places[rows[6] as usize]),
+        R::Row::load(&places[rows[7] as usize]),
     ])
 }
 
@@ -74,26 +178,46 @@ mod tests {
     use super::*;
     use crate::domain::Domain;
 
+    /// Rows in a line, 0.3 m apart, and pairs whose surfaces are closer than 0.55 m: up to the fifth row
+    /// behind one.
+    fn found(rows: u32, stretches: &[Stretch], set: InstructionSet) -> Vec<Near> {
+        let line = |row| Quad::new(Vector3::new(0.3 * f64::from(row), 0.0, 0.0), 0.5);
+        let places: Vec<Quad> = (0..rows).map(line).collect();
+        let mut near = Vec::new();
+        let images = Domain::unbounded().images();
+        set.run(Search { stretches, places: &places, images, margin: 0.55, near: &mut near });
+        near
+    }
+
     #[test]
     fn near_rows_are_found_in_stretches_of_any_length() {
-        let places: Vec<Quad> =
-            (0..40).map(|row| Quad::new(Vector3::new(0.3 * f64::from(row), 0.0, 0.0), 0.5)).collect();
-        for length in 0..40 {
-            let half = length / 2;
+        for length in 0..40_u32 {
+            let half = length.div_ceil(2);
             let stretches = [(0, half), (half, length)].map(|others| Stretch { ones: (0, 1), others });
             for set in InstructionSet::available() {
-                let mut pairs = Vec::new();
-                let images = Domain::unbounded().images();
-                set.run(Near {
-                    stretches: &stretches,
-                    places: &places,
-                    images,
-                    margin: 0.55,
-                    pairs: &mut pairs,
-                });
-                // Nearer than 1.55: up to row 5.
-                let expected: Vec<[u32; 2]> = (1..length.min(6)).map(|row| [0, row]).collect();
-                assert_eq!(pairs, expected, "{set}");
+                let found = found(40, &stretches, set);
+                assert!(
+                    found.iter().map(|near| near.rows).eq((1..length.min(6)).map(|row| [0, row])),
+                    "{set}"
+                );
+                for near in found {
+                    assert!((near.gap - (0.3 * f64::from(near.rows[1]) - 1.0)).abs() < 1e-12);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn more_rows_than_are_looked_at_together_are_found_once_each() {
+        for (start, end) in [(0, 200), (70, 140), (63, 64), (64, 66)] {
+            let stretches = [Stretch { ones: (start, end), others: (start, 200) }];
+            let of_one = |one: u32| (one + 1..(one + 6).min(200)).map(move |other| [one, other]);
+            let mut expected: Vec<[u32; 2]> = (start..end).flat_map(of_one).collect();
+            expected.sort_unstable();
+            for set in InstructionSet::available() {
+                let mut rows: Vec<_> = found(200, &stretches, set).iter().map(|near| near.rows).collect();
+                rows.sort_unstable();
+                assert_eq!(rows, expected, "{set}");
             }
         }
     }

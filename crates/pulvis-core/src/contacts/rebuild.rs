@@ -14,8 +14,13 @@ pub(crate) struct MemoryStore {
     /// One for each piece of then.
     pieces: Vec<PieceMemory>,
     /// Rows of a piece, but for the last one.
-    length: usize,
+    length: u32,
+    /// The layouts that records are written with, and the names of their normal laws.
+    layouts: Vec<(Layout, &'static str)>,
 }
+
+/// The place of a group's layout among those of a store; none if nothing was written with it.
+pub(crate) type LayoutNumber = Option<u32>;
 
 /// The memory of the contacts that a piece owned, by the lower row.
 #[derive(Clone, Debug, Default)]
@@ -23,18 +28,16 @@ struct PieceMemory {
     first_row: usize,
     /// First entry of each row, and one more at the end.
     starts: Vec<u32>,
+    /// The higher row of each entry, or what stands for a wall; and then some more, to be read eight at a time.
+    partners: Vec<u32>,
     entries: Vec<Entry>,
     records: Vec<f64>,
-    /// The layouts that records were written with, and the names of their normal laws.
-    layouts: Vec<(Layout, &'static str)>,
     /// Scratch.
-    unsorted: Vec<(u32, Entry)>,
+    unsorted: Vec<([u32; 2], Entry)>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Entry {
-    /// The higher row, or what stands for a wall.
-    partner: u32,
     layout: u32,
     /// First place among the records.
     record: u32,
@@ -48,9 +51,23 @@ pub(crate) fn wall_partner(wall: usize) -> u32 {
 impl MemoryStore {
     /// Takes in the memory of the contacts of all pieces; what was in it before is forgotten.
     pub(crate) fn gather(&mut self, pieces: &[Piece], team: &Team) {
-        self.length = pieces.first().map_or(0, |piece| piece.rows.len());
-        self.pieces.resize_with(pieces.len(), PieceMemory::default);
-        team.for_each(&mut self.pieces, |number, memory| memory.gather(&pieces[number]));
+        self.length = pieces.first().map_or(0, |piece| piece.rows.len() as u32);
+        self.layouts.clear();
+        for group in pieces.iter().flat_map(|piece| &piece.groups) {
+            if self.layout_number(group).is_none() {
+                self.layouts.push(layout_of(group));
+            }
+        }
+        let mut memories = std::mem::take(&mut self.pieces);
+        memories.resize_with(pieces.len(), PieceMemory::default);
+        team.for_each(&mut memories, |number, memory| memory.gather(&pieces[number], self));
+        self.pieces = memories;
+    }
+
+    /// The number that [`find`](Self::find) asks for, for all contacts of a group.
+    pub(crate) fn layout_number(&self, group: &ContactGroup) -> LayoutNumber {
+        let layout = layout_of(group);
+        self.layouts.iter().position(|known| *known == layout).map(|number| number as u32)
     }
 
     /// Memory [byte].
@@ -59,41 +76,59 @@ impl MemoryStore {
     }
 
     /// The memory of the contact between two bodies, by their rows of then, in the layout of the group that
-    /// it now belongs to.
-    pub(crate) fn find(&self, rows: [u32; 2], group: &ContactGroup) -> Option<Cow<'_, [f64]>> {
+    /// it now belongs to, which has this `number` here.
+    #[inline(always)]
+    pub(crate) fn find(
+        &self,
+        rows: [u32; 2],
+        group: &ContactGroup,
+        number: LayoutNumber,
+    ) -> Option<Cow<'_, [f64]>> {
         let [low, high] = [rows[0].min(rows[1]), rows[0].max(rows[1])];
-        self.pieces.get((low as usize).checked_div(self.length)?)?.find(low, high, group)
+        let memory = self.pieces.get(low.checked_div(self.length)? as usize)?;
+        let (layout, records) = memory.find(low, high)?;
+        if Some(layout) == number {
+            return records.get(..group.layout.columns()).map(Cow::from);
+        }
+        let (before, law) = &self.layouts[layout as usize];
+        let same_law = *law == group.model.normal.entry().name;
+        Some(group.layout.translate(before, &records[..before.columns()], same_law).into())
     }
 }
 
+fn layout_of(group: &ContactGroup) -> (Layout, &'static str) {
+    (group.layout, group.model.normal.entry().name)
+}
+
 impl PieceMemory {
-    fn gather(&mut self, piece: &Piece) {
-        self.forget();
+    fn gather(&mut self, piece: &Piece, store: &MemoryStore) {
+        self.starts.clear();
+        self.records.clear();
         self.first_row = piece.rows.start;
         self.starts.resize(piece.rows.len() + 1, 0);
         let mut unsorted = std::mem::take(&mut self.unsorted);
         for group in &piece.groups {
-            let layout = self.number_of(group);
-            group.for_each_memory(|block, lane, record| {
+            let layout = store.layout_number(group).unwrap_or_default();
+            group.for_each_memory(&mut self.records, |block, lane, record| {
                 let first = group.first_row(block, lane);
                 let partner = match group.partner {
                     Partner::Particle => group.second_row(block, lane),
                     Partner::Wall => wall_partner(group.second_row(block, lane) as usize),
                 };
                 let place = first.min(partner) - self.first_row as u32;
-                let record_place = self.records.len() as u32;
-                unsorted.push((place, Entry { partner: first.max(partner), layout, record: record_place }));
+                unsorted.push(([place, first.max(partner)], Entry { layout, record: record as u32 }));
                 self.starts[place as usize + 1] += 1;
-                self.records.extend_from_slice(record);
             });
         }
         for row in 0..piece.rows.len() {
             self.starts[row + 1] += self.starts[row];
         }
         self.entries.resize(unsorted.len(), Entry::default());
+        self.partners.resize(unsorted.len() + 8, 0);
         // Every row's next free place is kept where the row begins, until all are moved back by one.
-        for &(row, entry) in &unsorted {
+        for &([row, partner], entry) in &unsorted {
             let place = &mut self.starts[row as usize];
+            self.partners[*place as usize] = partner;
             self.entries[*place as usize] = entry;
             *place += 1;
         }
@@ -105,38 +140,28 @@ impl PieceMemory {
 
     fn memory_size(&self) -> usize {
         self.starts.capacity() * size_of::<u32>()
+            + self.partners.capacity() * size_of::<u32>()
             + self.entries.capacity() * size_of::<Entry>()
             + self.records.capacity() * size_of::<f64>()
-            + self.unsorted.capacity() * size_of::<(u32, Entry)>()
+            + self.unsorted.capacity() * size_of::<([u32; 2], Entry)>()
     }
 
-    /// Forgets everything, but keeps the room.
-    fn forget(&mut self) {
-        self.starts.clear();
-        self.entries.clear();
-        self.records.clear();
-        self.layouts.clear();
-    }
-
-    fn number_of(&mut self, group: &ContactGroup) -> u32 {
-        let layout = (group.layout, group.model.normal.entry().name);
-        let known = self.layouts.iter().position(|known| *known == layout);
-        known.unwrap_or_else(|| {
-            self.layouts.push(layout);
-            self.layouts.len() - 1
-        }) as u32
-    }
-
-    fn find(&self, row: u32, partner: u32, group: &ContactGroup) -> Option<Cow<'_, [f64]>> {
+    /// The number of the layout of what two rows' contact remembers, and the records from there on.
+    #[inline(always)]
+    fn find(&self, row: u32, partner: u32) -> Option<(u32, &[f64])> {
         let place = row as usize - self.first_row;
-        let range = *self.starts.get(place)? as usize..*self.starts.get(place + 1)? as usize;
-        let entry = self.entries[range].iter().find(|entry| entry.partner == partner)?;
-        let (layout, law) = &self.layouts[entry.layout as usize];
-        let record = &self.records[entry.record as usize..entry.record as usize + layout.columns()];
-        let same_law = *law == group.model.normal.entry().name;
-        if same_law && *layout == group.layout {
-            return Some(record.into());
+        let (mut start, end) = (*self.starts.get(place)?, *self.starts.get(place + 1)?);
+        while start < end {
+            let eight = self.partners.get(start as usize..)?.first_chunk::<8>()?;
+            // Without a branch for each: how many a row has follows no pattern.
+            let equal = (0..8).fold(0_u32, |bits, lane| bits | u32::from(eight[lane] == partner) << lane);
+            let found = start + equal.trailing_zeros();
+            if found < end.min(start + 8) {
+                let entry = self.entries.get(found as usize)?;
+                return Some((entry.layout, self.records.get(entry.record as usize..)?));
+            }
+            start += 8;
         }
-        Some(group.layout.translate(layout, record, same_law).into())
+        None
     }
 }

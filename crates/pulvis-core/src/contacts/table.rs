@@ -8,6 +8,7 @@ use pulvis_math::{InstructionSet, Lanes, Vector3};
 use super::Interactions;
 use super::block::ContactGroup;
 use super::leftovers::Leftovers;
+use super::listing::{Listing, Sources};
 use super::piece::{Closed, Incoming, Piece, cut};
 use super::rebuild::MemoryStore;
 use super::sweep::{Countdown, Halos, Sweep, Sweeping};
@@ -31,6 +32,8 @@ pub(crate) struct ContactTable {
     /// Scratch: the sums of the piece that each member of the team works on.
     sums: Vec<Vec<Load>>,
     leftovers: Leftovers,
+    /// Scratch: one for each member of the team.
+    listings: Vec<Listing>,
 }
 
 /// What the list of candidates depends on.
@@ -76,7 +79,15 @@ impl ContactTable {
         if self.pieces.is_empty() {
             self.pieces = cut(around.particles.len());
         }
-        team.for_each(&mut self.pieces, |_, piece| piece.list(around, grid, memory));
+        self.listings.resize_with(team.threads(), Listing::default);
+        let count = self.pieces.len();
+        let (pieces, listings) = (Shared::new(&mut self.pieces), Shared::new(&mut self.listings));
+        let sources = Sources { around, grid, memory };
+        team.for_each_number(count, |member, number| {
+            // SAFETY: every member is told its own number, and every piece is listed once.
+            let (listing, piece) = unsafe { (listings.get_mut(member), pieces.get_mut(number)) };
+            listing.list(piece, sources);
+        });
         self.row_count = around.particles.len();
         self.link(self.row_count)
     }
@@ -174,7 +185,8 @@ impl ContactTable {
     /// Memory of the whole table [byte].
     pub(crate) fn memory_size(&self) -> usize {
         let sums: usize = self.sums.iter().map(|sums| size_of_val(&sums[..])).sum();
-        let halos = 2 * size_of_val(&self.halos[..]) + sums;
+        let listings: usize = self.listings.iter().map(Listing::memory_size).sum();
+        let halos = 2 * size_of_val(&self.halos[..]) + sums + listings;
         self.groups().map(ContactGroup::memory_size).sum::<usize>() + halos
     }
 }

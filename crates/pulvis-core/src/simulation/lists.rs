@@ -99,7 +99,6 @@ impl Simulation {
             instructions: self.instructions,
         };
         let places = self.contacts.rebuild(&around, &grid, &self.memory, &self.team);
-        self.particles.loads.clear();
         self.particles.loads.resize(places, Load::default());
         self.outcomes.clear();
         self.outcomes.resize(self.contacts.pieces().len(), Outcome::default());

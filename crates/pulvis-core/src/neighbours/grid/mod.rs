@@ -12,6 +12,7 @@ use pulvis_math::Quad;
 use self::classes::Classes;
 use self::level::Level;
 pub(crate) use self::search::Stretch;
+use crate::counting_sort::counting_sort;
 use crate::domain::Domain;
 
 /// Particles sorted into levels by size, finest first, and in each level into cells that are wide
@@ -48,7 +49,8 @@ impl CellGrid {
         };
         let cells: Vec<u32> = places.iter().zip(&classes.of_row).map(number).collect();
         let count = levels.last().map_or(0, Level::end_of_cells);
-        let (starts, order) = counting_sort(&cells, count);
+        let (mut starts, mut order) = (Vec::new(), Vec::new());
+        counting_sort(&cells, count as usize, &mut starts, &mut order);
         (Self { levels, starts, margin }, order)
     }
 
@@ -58,26 +60,4 @@ impl CellGrid {
         let cell = cell as usize;
         (self.starts[cell], self.starts[cell + 1])
     }
-}
-
-/// First place of each of `count` cells, and one more at the end; and the rows in the order of their
-/// cells, by row within a cell.
-fn counting_sort(cells: &[u32], count: u32) -> (Vec<u32>, Vec<u32>) {
-    // Counts are kept two places later, so that the next free places, which end up as the places where
-    // the next cells begin, can be kept one place later: no second array is needed.
-    let mut starts = vec![0_u32; count as usize + 2];
-    for &cell in cells {
-        starts[cell as usize + 2] += 1;
-    }
-    for place in 2..starts.len() {
-        starts[place] += starts[place - 1];
-    }
-    let mut order = vec![0; cells.len()];
-    for (row, &cell) in cells.iter().enumerate() {
-        let place = &mut starts[cell as usize + 1];
-        order[*place as usize] = row as u32;
-        *place += 1;
-    }
-    starts.pop();
-    (starts, order)
 }

@@ -7,7 +7,8 @@ use pulvis_math::{Quad, Vector3};
 use super::CellGrid;
 use super::level::{Level, Touched};
 
-/// Rows, each of which may be near the later ones among other rows; as first row and end.
+/// Rows, each of which may be near the later ones among other rows; as first row and end. Of the stretches of the
+/// same ones, only the first may hold others that are not later.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stretch {
     pub(crate) ones: (u32, u32),
