@@ -5,14 +5,38 @@ use std::ops::AddAssign;
 use pulvis_math::{Lanes, Octet, Real};
 
 macro_rules! contact_energies {
-    ($($(#[$doc:meta])* $account:ident),* $(,)?) => {
+    (
+        held { $($(#[$doc_held:meta])* $held:ident,)* }
+        lost { $($(#[$doc_lost:meta])* $lost:ident,)* }
+    ) => {
         /// What a contact holds now, what it has lost since the last call, and at which power its
         /// dashpots take energy now.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct ContactEnergies<R = f64> {
-            $($(#[$doc])* pub $account: R,)*
+            $($(#[$doc_held])* pub $held: R,)*
+            $($(#[$doc_lost])* pub $lost: R,)*
         }
 
+        impl<R: Real> ContactEnergies<R> {
+            /// Adds what is held now; what was lost stays.
+            #[inline(always)]
+            pub fn add_held(&mut self, other: &Self) {
+                $(self.$held += other.$held;)*
+            }
+
+            /// Adds what was lost, and the power of the dashpots; what is held stays.
+            #[inline(always)]
+            pub fn add_lost(&mut self, other: &Self) {
+                $(self.$lost += other.$lost;)*
+            }
+        }
+
+        each_account!($($held,)* $($lost,)*);
+    };
+}
+
+macro_rules! each_account {
+    ($($account:ident,)*) => {
         // Not derived: what is derived is not inlined by force.
         impl<R: Real> Default for ContactEnergies<R> {
             #[inline(always)]
@@ -54,26 +78,30 @@ macro_rules! contact_energies {
 }
 
 contact_energies! {
-    /// Held by the normal law's elastic branch [J].
-    elastic_normal,
-    /// Held by the sliding spring [J].
-    elastic_sliding,
-    /// Held by the rolling spring [J].
-    elastic_rolling,
-    /// Held by the torsion spring [J].
-    elastic_torsion,
-    /// Potential of the attraction, zero out of reach [J].
-    adhesive_potential,
-    /// Lost by plastic deformation since the last call [J].
-    dissipated_plastic,
-    /// Lost on the adhesive limit branch and by attraction that sets in suddenly, since the last call [J].
-    dissipated_adhesive,
-    /// Lost by sliding since the last call [J].
-    dissipated_sliding,
-    /// Lost by rolling slip since the last call [J].
-    dissipated_rolling,
-    /// Lost by torsion slip since the last call [J].
-    dissipated_torsion,
-    /// Power of all dashpots now [W].
-    viscous_power,
+    held {
+        /// Held by the normal law's elastic branch [J].
+        elastic_normal,
+        /// Held by the sliding spring [J].
+        elastic_sliding,
+        /// Held by the rolling spring [J].
+        elastic_rolling,
+        /// Held by the torsion spring [J].
+        elastic_torsion,
+        /// Potential of the attraction, zero out of reach [J].
+        adhesive_potential,
+    }
+    lost {
+        /// Lost by plastic deformation since the last call [J].
+        dissipated_plastic,
+        /// Lost on the adhesive limit branch and by attraction that sets in suddenly, since the last call [J].
+        dissipated_adhesive,
+        /// Lost by sliding since the last call [J].
+        dissipated_sliding,
+        /// Lost by rolling slip since the last call [J].
+        dissipated_rolling,
+        /// Lost by torsion slip since the last call [J].
+        dissipated_torsion,
+        /// Power of all dashpots now [W].
+        viscous_power,
+    }
 }

@@ -53,6 +53,8 @@ pub(crate) struct ContactGroup {
     /// The smallest gap that any contact of the block had to its reach when it was listed [m]: until
     /// bodies have moved that far, the block needs no look.
     pub(crate) gap: Vec<f64>,
+    /// How many batches of blocks the last sweep computed.
+    pub(crate) batches: usize,
     /// What the last sweep added up to, lane by lane.
     pub(crate) energies: ContactEnergies<Lane>,
     /// The forces of the last sweep on the first bodies [N], wall by wall; empty for particles.
@@ -86,6 +88,7 @@ impl ContactGroup {
                 memory: Vec::new(),
                 live: Vec::new(),
                 gap: Vec::new(),
+                batches: 0,
                 energies,
                 wall_forces: Vec::new(),
             };

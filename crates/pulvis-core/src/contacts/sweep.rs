@@ -84,12 +84,45 @@ impl<'a> Halos<'a> {
     }
 }
 
+/// Where a member of the team adds up the loads of one piece after the other.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sums {
+    present: Vec<Load>,
+    /// Those of the next piece: the first `cleared` of them are zero.
+    next: Vec<Load>,
+    cleared: usize,
+}
+
+impl Sums {
+    /// So many sums, all zero, for the present piece, and as many as the next one is likely to need: the contact loop
+    /// sets them to zero on the way, unless it is `idle`. Clearing them all at once would keep the processor waiting for
+    /// its caches.
+    fn turn(&mut self, [count, next_count]: [usize; 2], idle: bool) -> (&mut [Load], &mut [Load]) {
+        std::mem::swap(&mut self.present, &mut self.next);
+        if self.present.len() < count {
+            self.present.resize(count, Load::default());
+        }
+        let (_, left) = self.present[..count].split_at_mut(self.cleared.min(count));
+        left.fill(Load::default());
+        if self.next.len() < next_count {
+            self.next.resize(next_count, Load::default());
+        }
+        self.cleared = if idle { 0 } else { next_count };
+        (&mut self.present[..count], &mut self.next[..next_count])
+    }
+
+    /// Memory [byte].
+    pub(super) fn memory_size(&self) -> usize {
+        size_of_val(&self.present[..]) + size_of_val(&self.next[..])
+    }
+}
+
 /// A sweep on its way; see [`Sweep`].
 pub(super) struct Sweeping<'a, F> {
     pub(super) sweep: Sweep<'a>,
     pub(super) pieces: Shared<'a, Piece>,
     /// One for each member of the team.
-    pub(super) sums: Shared<'a, Vec<Load>>,
+    pub(super) sums: Shared<'a, Sums>,
     pub(super) pending: &'a [Countdown],
     pub(super) leftovers: &'a Leftovers,
     pub(super) halos: Halos<'a>,
@@ -107,7 +140,7 @@ impl<F: Fn(usize, Range<usize>, &mut [Load])> Sweeping<'_, F> {
         let pending = &self.pending[number];
         // SAFETY: the caller's; nobody looks at a piece before it has counted down below.
         let (sums, piece) = unsafe { (self.sums.get_mut(member), self.pieces.get_mut(number)) };
-        self.sum_contacts(number, piece, sums);
+        let sums = self.sum_contacts(number, piece, sums);
         // From here on the piece is only read, until the next sweep.
         let (piece, rows) = (&*piece, piece.rows.clone());
         let (own, halo) = sums.split_at_mut(rows.len());
@@ -136,19 +169,18 @@ impl<F: Fn(usize, Range<usize>, &mut [Load])> Sweeping<'_, F> {
         }
     }
 
-    /// Adds the loads of a piece's contacts up in `sums`: those on its rows, then those on its halo.
-    fn sum_contacts(&self, number: usize, piece: &mut Piece, sums: &mut Vec<Load>) {
+    /// Adds up the loads of a piece's contacts: those on its rows, then those on its halo.
+    fn sum_contacts<'b>(&self, number: usize, piece: &mut Piece, sums: &'b mut Sums) -> &'b mut [Load] {
         let Sweep { moving, walls, advance, .. } = self.sweep;
         let Piece { rows, groups, phases, closed, .. } = piece;
-        sums.clear();
-        sums.resize(rows.len() + self.halos.of(number).len(), Load::default());
+        // The largest group comes first, and the next piece is mostly the one behind this.
+        let next_halo = self.halos.of(number + 1);
+        let counts = [rows.len() + self.halos.of(number).len(), rows.len() + next_halo.len()];
+        let (sums, next_sums) = sums.turn(counts, groups.is_empty());
+        let mut ahead = Ahead { rows: rows.end..rows.end + rows.len(), halo: next_halo, sums: next_sums };
         let mut clock = Stopwatch::start(advance.timed);
-        for (place, group) in groups.iter_mut().enumerate() {
-            // The largest group comes first, and the next piece is mostly the one behind this.
-            let ahead = match place {
-                0 => Ahead { rows: rows.end..rows.end + rows.len(), halo: self.halos.of(number + 1) },
-                _ => Ahead::default(),
-            };
+        for group in groups {
+            let ahead = std::mem::take(&mut ahead);
             // SAFETY: rows and places were listed for these columns and sums. `finish`, which writes rows, is
             // not called for rows of this piece or its halo before it has counted down.
             unsafe { kernel::sweep(group, sums, moving, walls, advance, *closed, ahead) };
@@ -157,6 +189,7 @@ impl<F: Fn(usize, Range<usize>, &mut [Load])> Sweeping<'_, F> {
                 Partner::Wall => &mut phases.walls,
             });
         }
+        sums
     }
 
     /// Counts a piece with a part in another one. Who does the last of them finishes the other at once if it has

@@ -11,7 +11,7 @@ use super::leftovers::Leftovers;
 use super::listing::{Listing, Sources};
 use super::piece::{Closed, Incoming, Piece, cut};
 use super::rebuild::MemoryStore;
-use super::sweep::{Countdown, Halos, Sweep, Sweeping};
+use super::sweep::{Countdown, Halos, Sums, Sweep, Sweeping};
 use crate::domain::Images;
 use crate::neighbours::{CellGrid, Moved};
 use crate::particles::{Load, MaterialIndex, Particles};
@@ -29,8 +29,8 @@ pub(crate) struct ContactTable {
     /// Where the halo of each piece begins, and the end.
     halo_starts: Vec<usize>,
     pending: Vec<Countdown>,
-    /// Scratch: the sums of the piece that each member of the team works on.
-    sums: Vec<Vec<Load>>,
+    /// Scratch: one for each member of the team.
+    sums: Vec<Sums>,
     leftovers: Leftovers,
     /// Scratch: one for each member of the team.
     listings: Vec<Listing>,
@@ -138,7 +138,7 @@ impl ContactTable {
         finish: impl Fn(usize, Range<usize>, &mut [Load]) + Sync,
     ) {
         let count = self.pieces.len();
-        self.sums.resize_with(team.threads(), Vec::new);
+        self.sums.resize_with(team.threads(), Sums::default);
         self.leftovers.clear(team.threads(), count);
         let sweeping = Sweeping {
             sweep: *sweep,
@@ -184,7 +184,7 @@ impl ContactTable {
 
     /// Memory of the whole table [byte].
     pub(crate) fn memory_size(&self) -> usize {
-        let sums: usize = self.sums.iter().map(|sums| size_of_val(&sums[..])).sum();
+        let sums: usize = self.sums.iter().map(Sums::memory_size).sum();
         let listings: usize = self.listings.iter().map(Listing::memory_size).sum();
         let halos = 2 * size_of_val(&self.halos[..]) + sums + listings;
         self.groups().map(ContactGroup::memory_size).sum::<usize>() + halos

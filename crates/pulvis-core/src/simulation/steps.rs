@@ -152,6 +152,7 @@ impl Simulation {
             timed: self.phases.is_some(),
             images: self.domain.images(),
             ledger: self.accounting,
+            held: !onwards,
             instructions: self.instructions,
         };
         let step = self.step_of_rows(time_step);

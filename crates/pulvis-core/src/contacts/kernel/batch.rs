@@ -36,6 +36,8 @@ pub(super) struct Response<N> {
     pub(super) layout: Layout,
     /// The step that led to the present positions [s].
     pub(super) time_step: f64,
+    /// Whether what contacts hold is asked for, beside what they lose.
+    pub(super) held: bool,
 }
 
 /// Adds eight loads to the sums, one after the other: several lanes may have the same place.
@@ -133,7 +135,11 @@ impl<R: Octet> Batch<R> {
             self.answered[place] =
                 Answered { force: answer.force, torque_i: answer.torque_i, torque_j: answer.torque_j };
             if LEDGER {
-                *energies += answer.energies;
+                energies.add_lost(&answer.energies);
+                // What is held is not even computed where nobody asks for it.
+                if response.held {
+                    energies.add_held(&answer.energies);
+                }
             }
         }
     }

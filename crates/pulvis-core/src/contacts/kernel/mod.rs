@@ -63,6 +63,9 @@ pub(crate) struct Advance {
     pub(crate) timed: bool,
     /// Whether energies are summed up.
     pub(crate) ledger: bool,
+    /// Whether the energies that contacts hold are among them. What they lose has to be summed up in every step;
+    /// what they hold is asked for at some times only.
+    pub(crate) held: bool,
     /// What the processor can do.
     pub(crate) instructions: InstructionSet,
 }
@@ -105,29 +108,49 @@ struct Loop<'a> {
     ahead: Ahead<'a>,
 }
 
-/// Rows that are likely to be needed next.
-#[derive(Clone, Debug, Default)]
+/// Rows that are brought near in one round at the most.
+const MOST_ROWS: usize = 16;
+
+/// What is likely to be needed next.
+#[derive(Debug, Default)]
 pub(crate) struct Ahead<'a> {
-    /// One behind the other.
+    /// Rows one behind the other.
     pub(crate) rows: Range<usize>,
-    /// Here and there.
+    /// Rows here and there.
     pub(crate) halo: &'a [u32],
+    /// Sums that are to be set to zero.
+    pub(crate) sums: &'a mut [Load],
 }
 
-impl Loop<'_> {
-    /// Has the next `count` of the rows ahead brought near.
+impl Ahead<'_> {
+    /// How much of each to make ready in each of so many rounds.
     #[inline(always)]
-    fn look_ahead(moving: Moving<'_>, ahead: &mut Ahead<'_>, counts: [usize; 2]) {
-        let end = (ahead.rows.start + counts[0]).min(ahead.rows.end);
+    fn in_rounds(&self, rounds: usize) -> [usize; 3] {
+        // Where there are few contacts rows are not waited for, and asking for many at once would be.
+        let rows = self.rows.len().div_ceil(rounds).min(MOST_ROWS);
+        let halo = self.halo.len().div_ceil(rounds).min(MOST_ROWS);
         // Two quads in a cache line.
-        for row in (ahead.rows.start..end).step_by(2) {
+        [rows.next_multiple_of(2), halo, self.sums.len().div_ceil(rounds)]
+    }
+
+    /// Has some of the rows brought near, and some of the sums set to zero.
+    #[inline(always)]
+    fn make_ready(&mut self, moving: Moving<'_>, [rows, halo, sums]: [usize; 3]) {
+        let end = (self.rows.start + rows).min(self.rows.end);
+        for row in (self.rows.start..end).step_by(2) {
             moving.prefetch(row);
         }
-        ahead.rows.start = end;
-        let (near, later) = ahead.halo.split_at(counts[1].min(ahead.halo.len()));
+        self.rows.start = end;
+        let (near, later) = self.halo.split_at(halo.min(self.halo.len()));
         for &row in near {
             moving.prefetch(row as usize);
         }
-        ahead.halo = later;
+        self.halo = later;
+        let left = std::mem::take(&mut self.sums);
+        let (near, later) = left.split_at_mut(sums.min(left.len()));
+        for sum in near {
+            *sum = Load::default();
+        }
+        self.sums = later;
     }
 }

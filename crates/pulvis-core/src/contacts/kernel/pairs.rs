@@ -4,8 +4,9 @@ use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, resista
 use pulvis_math::{Kernel, Mask, Octet};
 
 use super::super::block::filled_lanes;
-use super::Loop;
 use super::batch::{BATCH, Batch, Response, gather, gather_apart};
+use super::{Advance, Loop};
+use crate::particles::Load;
 use crate::shared::Shared;
 
 /// The loop over a group, with the type of its law.
@@ -50,15 +51,18 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
         let (composition, advance) = (group.model.composition, *advance);
         let turning_dashpots = composition.has_resistance_dashpot();
         let reach = R::splat(-composition.noncontact.reach());
-        let response = Response { law, composition, layout: group.layout, time_step: advance.time_step };
+        let Advance { time_step, held, .. } = advance;
+        let response = Response { law, composition, layout: group.layout, time_step, held };
         let mut energies = ContactEnergies::<R>::default();
         let mut batch = Batch::<R>::new();
         let blocks = group.rows.len();
         let mut next = 0;
-        let a_batch = |rows: usize| (rows * BATCH).div_ceil(blocks).next_multiple_of(2);
-        let counts = [a_batch(ahead.rows.len()), a_batch(ahead.halo.len())];
+        let expected = if group.batches > 0 { group.batches } else { blocks.div_ceil(BATCH) };
+        let counts = ahead.in_rounds(expected);
+        group.batches = 0;
         while next < blocks {
-            Loop::look_ahead(moving, &mut ahead, counts);
+            ahead.make_ready(moving, counts);
+            group.batches += 1;
             while next < blocks && !batch.is_full() {
                 let block = next;
                 next += 1;
@@ -107,6 +111,7 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
             unsafe { batch.respond::<N, RESISTANCE, LEDGER>(&response, &mut group.memory, &mut energies) };
             unsafe { batch.add_up::<RESISTANCE, true>(&group.sums, sums) };
         }
+        ahead.sums.fill(Load::default());
         group.energies = energies.to_lanes();
     }
 }

@@ -5,7 +5,7 @@ use pulvis_math::{Kernel, Mask, Octet, Vector3};
 
 use super::super::block::{QUAD, filled_lanes};
 use super::batch::{Batch, Response, gather};
-use super::{Loop, WallMotionNow};
+use super::{Advance, Loop, WallMotionNow};
 use crate::shared::Shared;
 
 /// The loop over a group, with the type of its law.
@@ -42,7 +42,8 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
         let (composition, advance) = (group.model.composition, *advance);
         let turning_dashpots = composition.has_resistance_dashpot();
         let reach = R::splat(-composition.noncontact.reach());
-        let response = Response { law, composition, layout: group.layout, time_step: advance.time_step };
+        let Advance { time_step, held, .. } = advance;
+        let response = Response { law, composition, layout: group.layout, time_step, held };
         let mut energies = ContactEnergies::<R>::default();
         group.wall_forces.fill(Vector3::zero());
         // The forces of one wall at a time.
