@@ -93,12 +93,45 @@ impl Team {
         rows: usize,
         part: impl Fn(Range<usize>) -> [f64; SUMS] + Sync,
     ) -> [f64; SUMS] {
-        let mut parts = vec![[0.0; SUMS]; rows.div_ceil(STRETCH)];
-        self.for_each(&mut parts, |number, sums| *sums = part(stretch(number, rows)));
-        parts.iter().fold([0.0; SUMS], |mut total, sums| {
+        self.parts_over(rows, [0.0; SUMS], part).iter().fold([0.0; SUMS], |mut total, sums| {
             total.iter_mut().zip(sums).for_each(|(total, sum)| *total += sum);
             total
         })
+    }
+
+    /// The largest of what `part` answers for stretches of all rows, zero at least.
+    pub(crate) fn largest_over(&self, rows: usize, part: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
+        self.parts_over(rows, 0.0, part).into_iter().fold(0.0, f64::max)
+    }
+
+    fn parts_over<T: Copy + Send>(
+        &self,
+        rows: usize,
+        none: T,
+        part: impl Fn(Range<usize>) -> T + Sync,
+    ) -> Vec<T> {
+        let mut parts = vec![none; rows.div_ceil(STRETCH)];
+        self.for_each(&mut parts, |number, answer| *answer = part(stretch(number, rows)));
+        parts
+    }
+
+    /// The column filled with the `value` of every row.
+    pub(crate) fn fill<T: Copy + Default + Send + Sync>(
+        &self,
+        column: &mut Vec<T>,
+        rows: usize,
+        value: impl Fn(usize) -> T + Sync,
+    ) {
+        column.resize(rows, T::default());
+        let column = Shared::new(column);
+        self.for_each_number(rows.div_ceil(STRETCH), |_, number| {
+            let rows = stretch(number, rows);
+            // SAFETY: stretches have different rows.
+            let part = unsafe { column.range_mut(rows.clone()) };
+            for (slot, row) in part.iter_mut().zip(rows) {
+                *slot = value(row);
+            }
+        });
     }
 
     /// The column in a new order: row k becomes what was row `order[k]`. `spare` is exchanged for it.

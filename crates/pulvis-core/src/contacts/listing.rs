@@ -13,7 +13,7 @@ use crate::counting_sort::counting_sort;
 use crate::neighbours::{CellGrid, Stretch};
 use crate::phases::Phases;
 
-/// Candidates are sorted into blocks by their gap over the skin, up to these bounds and beyond: what touches
+/// Candidates are sorted into blocks by their gap over the thickest skin, up to these bounds and beyond: what touches
 /// now fills whole blocks, and blocks of what is far apart are passed over until something has moved.
 const GAP_CLASSES: [f64; CLASSES - 1] = [0.01, 0.06, 0.3];
 const CLASSES: usize = 4;
@@ -67,25 +67,30 @@ impl Listing {
     /// Finds the pairs that may touch before the next list, and sorts them.
     fn find_near(&mut self, piece: &Piece, Sources { around, grid, .. }: Sources<'_>) {
         let Surroundings { particles, interactions, images, skin, instructions, .. } = *around;
-        let (places, material) = (&particles.place, &particles.material);
+        let (skinned, material) = (skin.places(), &particles.material);
         let Self { stretches, near, classes, .. } = self;
         stretches.clear();
         let rows = piece.rows.start as u32..piece.rows.end as u32;
-        grid.for_each_stretch_of(rows, places, |stretch| stretches.push(stretch));
+        grid.for_each_stretch_of(rows, skinned, |stretch| stretches.push(stretch));
         near.clear();
-        instructions.run(Search { stretches, places, images, margin: interactions.reach() + skin, near });
+        let margin = interactions.reach();
+        instructions.run(Search { stretches, places: skinned, images, margin, near });
         // What has no model is never near.
         let reach = |group| interactions.model(group).map_or(f64::NEG_INFINITY, ContactModel::reach);
         let reaches: Vec<f64> = (0..interactions.groups()).map(reach).collect();
-        let bounds = GAP_CLASSES.map(|bound| bound * skin);
+        let bounds = GAP_CLASSES.map(|bound| bound * skin.thickest);
+        let skin_of = |row: u32| skinned[row as usize].scalar - particles.place[row as usize].scalar;
         let far = reaches.len() * CLASSES;
         classes.clear();
         classes.extend(near.iter_mut().map(|Near { rows: [one, other], gap }| {
             let group = interactions.group(material[*one as usize], material[*other as usize]);
+            // So far between skins.
             *gap -= reaches[group];
+            let skins_meet = *gap < 0.0;
+            *gap += skin_of(*one) + skin_of(*other);
             // Without branches: gaps follow no pattern.
             let class: usize = bounds.iter().map(|bound| usize::from(*gap > *bound)).sum();
-            (if *gap < skin { group * CLASSES + class } else { far }) as u32
+            (if skins_meet { group * CLASSES + class } else { far }) as u32
         }));
         counting_sort(classes, far + 1, &mut self.class_starts, &mut self.order);
     }
@@ -158,7 +163,7 @@ impl Listing {
                 for row in piece.rows.clone().filter(|&row| particles.material[row] == material) {
                     let Quad { vector, scalar } = particles.place[row];
                     let gap = vector.dot(wall.normal) - scalar - touch;
-                    if gap < skin {
+                    if gap < skin.of_walls() + (skin.places()[row].scalar - scalar) {
                         let sum = (row - piece.rows.start) as u32;
                         let rows = [row as u32, wall_number as u32];
                         candidates.push(Candidate { rows, sums: [sum, 0], gap });

@@ -94,10 +94,10 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// So many sums, all zero, for the present piece, and as many as the next one is likely to need: the contact loop
-    /// sets them to zero on the way, unless it is `idle`. Clearing them all at once would keep the processor waiting for
+    /// So many sums, all zero, for the present piece, and as many as the next one is likely to need, which somebody `clears`
+    /// on the way: clearing them all at once would keep the processor waiting for
     /// its caches.
-    fn turn(&mut self, [count, next_count]: [usize; 2], idle: bool) -> (&mut [Load], &mut [Load]) {
+    fn turn(&mut self, [count, next_count]: [usize; 2], clears: bool) -> (&mut [Load], &mut [Load]) {
         std::mem::swap(&mut self.present, &mut self.next);
         if self.present.len() < count {
             self.present.resize(count, Load::default());
@@ -107,7 +107,7 @@ impl Sums {
         if self.next.len() < next_count {
             self.next.resize(next_count, Load::default());
         }
-        self.cleared = if idle { 0 } else { next_count };
+        self.cleared = if clears { next_count } else { 0 };
         (&mut self.present[..count], &mut self.next[..next_count])
     }
 
@@ -176,7 +176,8 @@ impl<F: Fn(usize, Range<usize>, &mut [Load])> Sweeping<'_, F> {
         // The largest group comes first, and the next piece is mostly the one behind this.
         let next_halo = self.halos.of(number + 1);
         let counts = [rows.len() + self.halos.of(number).len(), rows.len() + next_halo.len()];
-        let (sums, next_sums) = sums.turn(counts, groups.is_empty());
+        let pairs_come_first = groups.first().is_some_and(|group| group.partner == Partner::Particle);
+        let (sums, next_sums) = sums.turn(counts, pairs_come_first);
         let mut ahead = Ahead { rows: rows.end..rows.end + rows.len(), halo: next_halo, sums: next_sums };
         let mut clock = Stopwatch::start(advance.timed);
         for group in groups {

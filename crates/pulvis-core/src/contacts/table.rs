@@ -13,7 +13,7 @@ use super::piece::{Closed, Incoming, Piece, cut};
 use super::rebuild::MemoryStore;
 use super::sweep::{Countdown, Halos, Sums, Sweep, Sweeping};
 use crate::domain::Images;
-use crate::neighbours::{CellGrid, Moved};
+use crate::neighbours::{CellGrid, Moved, Skin};
 use crate::particles::{Load, MaterialIndex, Particles};
 use crate::shared::Shared;
 use crate::team::Team;
@@ -47,7 +47,7 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) interactions: &'a Interactions,
     pub(crate) walls: &'a [Wall],
     pub(crate) images: Images,
-    pub(crate) skin: f64,
+    pub(crate) skin: &'a Skin,
     pub(crate) instructions: InstructionSet,
 }
 

@@ -4,4 +4,4 @@ mod grid;
 mod skin;
 
 pub(crate) use grid::{CellGrid, Stretch};
-pub(crate) use skin::{Moved, Outdated, Skin};
+pub(crate) use skin::{Moved, Skin};

@@ -4,33 +4,67 @@ use std::ops::Range;
 
 use pulvis_math::Quad;
 
-/// Where particles and walls were when the candidates were listed, and how far they may move.
+use crate::particles::Particles;
+use crate::team::Team;
+
+/// How far particles and walls may move before candidates are listed anew, and where they were when that was done.
+///
+/// Every particle has a skin of its own: two are candidates if their skins overlap, and the list holds as
+/// long as no particle has left its skin. A fast one has a thick skin, so that a few grains that fly about do
+/// not make all others be listed again and again.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Skin {
-    /// Candidates are listed up to this much beyond their reach [m].
-    pub(crate) thickness: f64,
+    /// The thickest and the thinnest skin of a particle [m].
+    pub(crate) thickest: f64,
+    pub(crate) thinnest: f64,
+    /// Centres when the candidates were listed [m], and radii with skins [m].
     places: Vec<Quad>,
     walls: Vec<f64>,
     /// Steps since the list was made.
     steps: u64,
 }
 
+/// Steps that a list should last: a skin is as thick as what its particle moves in so many. The engine
+/// spends some eight steps' time on a list.
+const LIFE: u64 = 250;
+/// The thinnest skin, over the thickest one, lies between these.
+const THINNEST: Range<f64> = 0.1..0.5;
+
 /// Steps after which it is looked at how far particles have really moved. In between, the highest speed says
 /// how far at the most: that costs no look at where they were, which is far from any cache.
 const SURVEY: u64 = 8;
 
-/// The longest and the second longest way of any particle since it was listed: no gap between two
-/// particles has closed by more than their sum.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// How far particles have moved since they were listed.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Moved {
+    /// The longest and the second longest way of any particle [m]: no gap between two particles has closed by
+    /// more than their sum.
     pub(crate) longest: f64,
     pub(crate) second: f64,
+    /// What is left of the skin of whoever has least left of it [m].
+    pub(crate) left: f64,
+}
+
+impl Default for Moved {
+    /// Of no particles.
+    fn default() -> Self {
+        Self { longest: 0.0, second: 0.0, left: f64::INFINITY }
+    }
 }
 
 impl Moved {
-    /// Takes in one more way; one that is no number counts as infinite.
+    /// Nowhere yet, in skins at least so thick [m].
+    pub(crate) fn nowhere(skin: f64) -> Self {
+        Self { left: skin, ..Self::default() }
+    }
+
+    /// Anywhere.
+    pub(crate) const ANYWHERE: Self =
+        Self { longest: f64::INFINITY, second: f64::INFINITY, left: f64::NEG_INFINITY };
+
+    /// Takes in the way of one more particle, with its skin [m]; one that is no number counts as infinite.
     #[inline(always)]
-    pub(crate) fn take_in(&mut self, way: f64) {
+    fn take_in(&mut self, way: f64, skin: f64) {
         // Not `>`: a NaN must not be passed over.
         let shorter = way <= self.second;
         if !shorter {
@@ -38,57 +72,91 @@ impl Moved {
             self.second = way.min(self.longest);
             self.longest = way.max(self.longest);
         }
+        let less = skin - way < self.left;
+        self.left = if less || way.is_nan() { skin - way } else { self.left };
     }
 
-    /// Of a range of rows.
+    /// Of particles that were listed with these radii and skins.
     fn of(places: &[Quad], listed: &[Quad]) -> Self {
-        let mut squares = Self::default();
+        let mut moved = Self::default();
         for (now, before) in places.iter().zip(listed) {
-            squares.take_in((now.vector - before.vector).norm_squared());
+            moved.take_in((now.vector - before.vector).norm(), before.scalar - now.scalar);
         }
-        Self { longest: squares.longest.sqrt(), second: squares.second.sqrt() }
+        moved
     }
 
     /// At the most, when all have gone on by up to `way`.
     pub(crate) fn farther(self, way: f64) -> Self {
-        Self { longest: self.longest + way, second: self.second + way }
+        Self { longest: self.longest + way, second: self.second + way, left: self.left - way }
     }
-
-    /// By how much a gap between two of these particles can have closed.
-    pub(crate) fn closed(self) -> f64 {
-        self.longest + self.second
-    }
-
-    /// The same for all particles of several sets.
-    pub(crate) fn of_all(sets: impl Iterator<Item = Self>) -> Self {
-        let mut all = Self::default();
-        for set in sets {
-            all.take_in(set.longest);
-            all.take_in(set.second);
-        }
-        all
-    }
-}
-
-/// Whether a new list is needed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Outdated {
-    /// The list still holds.
-    No,
-    /// Something has moved half a skin.
-    Yes,
-    /// The particle in this row is nowhere: its position is no number.
-    Lost(usize),
 }
 
 impl Skin {
-    /// Remembers the present places.
-    pub(crate) fn renew(&mut self, places: &[Quad], wall_offsets: impl Iterator<Item = f64>) {
-        self.places.clear();
-        self.places.extend_from_slice(places);
-        self.walls.clear();
-        self.walls.extend(wall_offsets);
+    /// Sets the skin of all particles [m], whatever their speed.
+    pub(crate) fn set(&mut self, thickness: f64) {
+        (self.thickest, self.thinnest) = (thickness, thickness);
+    }
+
+    /// Sets the thickest skin of a particle [m], and the others' as they are best to begin with.
+    pub(crate) fn set_thickest(&mut self, thickness: f64) {
+        (self.thickest, self.thinnest) = (thickness, THINNEST.end * thickness);
+    }
+
+    /// Makes the thinnest skin thicker where those that have it have come near its end, or thinner where they stayed
+    /// far from that: where particles are now tells.
+    pub(crate) fn adapt(&mut self, places: &[Quad], team: &Team) {
+        let (listed, thinnest) = (&self.places, self.thinnest);
+        if thinnest == self.thickest {
+            return;
+        }
+        let longest = team.largest_over(places.len(), |rows| {
+            let way = |(now, before): (&Quad, &Quad)| {
+                let thin = before.scalar - now.scalar < 1.01 * thinnest;
+                if thin { (now.vector - before.vector).norm_squared() } else { 0.0 }
+            };
+            places[rows.clone()].iter().zip(&listed[rows]).map(way).fold(0.0, f64::max)
+        });
+        // Over what the speeds that particles had when they were listed account for.
+        let used = longest.sqrt() / thinnest * LIFE as f64 / self.steps.max(1) as f64;
+        if used > 2.0 {
+            self.thinnest = (2.0 * thinnest).min(THINNEST.end * self.thickest);
+        } else if used < 1.2 {
+            self.thinnest = (0.5 * thinnest).max(THINNEST.start * self.thickest);
+        }
+    }
+
+    /// Gives all particles their skins; they have moved nowhere since. `time_step` in s.
+    pub(crate) fn renew(&mut self, particles: &Particles, time_step: f64, team: &Team) {
+        let time = LIFE as f64 * time_step;
+        let (thinnest, thickest) = (self.thinnest, self.thickest);
+        team.fill(&mut self.places, particles.len(), |row| {
+            let Quad { vector, scalar } = particles.place[row];
+            // What is no number gives way to the others.
+            let way = particles.velocity[row].vector.norm() * time;
+            Quad::new(vector, scalar + way.max(thinnest).min(thickest))
+        });
         self.steps = 0;
+    }
+
+    /// Takes in where walls are.
+    pub(crate) fn renew_walls(&mut self, offsets: impl Iterator<Item = f64>) {
+        self.walls.clear();
+        self.walls.extend(offsets);
+    }
+
+    /// The particles are in a new order: row k is what was row `order[k]`.
+    pub(crate) fn reorder(&mut self, order: &[u32], team: &Team) {
+        team.reorder(&mut self.places, order, &mut Vec::new());
+    }
+
+    /// Centres when the candidates were listed [m], and radii with skins [m].
+    pub(crate) fn places(&self) -> &[Quad] {
+        &self.places
+    }
+
+    /// The skin of walls [m].
+    pub(crate) fn of_walls(&self) -> f64 {
+        0.5 * self.thickest
     }
 
     /// Counts a step. Answers whether a survey is due.
@@ -97,7 +165,7 @@ impl Skin {
         self.steps.is_multiple_of(SURVEY)
     }
 
-    /// How far the particles of some rows, now at `places`, have moved since the list was made [m].
+    /// How far the particles of some rows, now at `places`, have moved since the list was made.
     pub(crate) fn moved(&self, rows: Range<usize>, places: &[Quad]) -> Moved {
         Moved::of(&places[rows.clone()], &self.places[rows])
     }
@@ -107,51 +175,68 @@ impl Skin {
         offsets.zip(&self.walls).map(|(now, before)| (now - before).abs()).fold(0.0, f64::max)
     }
 
-    /// Whether the list still holds: a gap that has closed by more than a skin may be that of two
-    /// bodies which are not on it.
-    pub(crate) fn outdated(&self, closed: f64, places: &[Quad]) -> Outdated {
-        if closed.is_finite() && closed <= self.thickness {
-            return Outdated::No;
-        }
-        match places.iter().position(|place| !place.vector.is_finite()) {
-            Some(lost) => Outdated::Lost(lost),
-            None => Outdated::Yes,
-        }
+    /// Whether the list still holds, when so much is `left` of any particle's skin [m] and walls have moved
+    /// by up to `walls` [m]: what has left its skin may meet what is not on the list.
+    pub(crate) fn holds(&self, left: f64, walls: f64) -> bool {
+        left >= 0.0 && walls <= self.of_walls()
     }
 }
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
     use pulvis_math::Vector3;
 
     use super::*;
 
     #[test]
-    fn the_two_longest_ways_are_kept_in_any_order() {
+    fn the_two_longest_ways_are_kept_in_any_order_and_the_least_that_is_left() {
         for ways in [[1.0, 2.0, 3.0], [3.0, 2.0, 1.0], [2.0, 3.0, 1.0], [3.0, 1.0, 2.0]] {
             let mut moved = Moved::default();
-            ways.into_iter().for_each(|way| moved.take_in(way));
-            assert_eq!(moved, Moved { longest: 3.0, second: 2.0 });
-            moved.take_in(f64::NAN);
-            assert_eq!(moved, Moved { longest: f64::INFINITY, second: 3.0 });
+            // Whoever has moved farthest has the thickest skin.
+            ways.into_iter().for_each(|way| moved.take_in(way, way * way));
+            assert_eq!(moved, Moved { longest: 3.0, second: 2.0, left: 0.0 });
+            moved.take_in(f64::NAN, 1.0);
+            assert_eq!((moved.longest, moved.second), (f64::INFINITY, 3.0));
+            assert!(moved.left.is_nan());
+            moved.take_in(0.0, 1.0);
+            assert!(!Skin::default().holds(moved.left, 0.0));
         }
     }
 
     #[test]
-    fn a_list_is_out_of_date_when_two_bodies_can_have_come_closer_by_a_skin() {
-        let mut skin = Skin { thickness: 0.2, ..Skin::default() };
-        let start = vec![Quad::default(); 2];
-        skin.renew(&start, [0.0].into_iter());
-        let outdated = |ways: [f64; 2], wall: f64, places: &[Quad]| {
-            let moved = Moved::of_all(ways.map(|way| Moved { longest: way, second: 0.0 }).into_iter());
-            let closed = moved.closed().max(moved.longest + skin.moved_walls([wall].into_iter()));
-            skin.outdated(closed, places)
+    fn a_list_is_out_of_date_when_a_body_has_left_its_skin() {
+        let skin = Skin { thickest: 0.2, thinnest: 0.1, ..Skin::default() };
+        assert!(skin.holds(0.0, 0.1) && !skin.holds(0.0, 0.11));
+        assert!(!skin.holds(-1e-9, 0.0) && !skin.holds(f64::NAN, 0.0));
+        let listed = [Quad::new(Vector3::zero(), 1.1), Quad::new(Vector3::zero(), 1.2)];
+        let at = |x: f64| Quad::new(Vector3::new(x, 0.0, 0.0), 1.0);
+        let left = |one, other| Moved::of(&[at(one), at(other)], &listed).left;
+        assert!((left(0.04, 0.0) - 0.06).abs() < 1e-15 && (left(0.0, 0.19) - 0.01).abs() < 1e-15);
+        assert!(left(0.11, 0.0) < 0.0 && left(0.0, -0.21) < 0.0);
+    }
+
+    #[test]
+    fn skins_become_thin_where_particles_stay_and_thick_where_they_come_near_their_ends() {
+        let mut skin = Skin::default();
+        skin.set_thickest(1.0);
+        let mut adapted = |used: f64| {
+            skin.steps = LIFE;
+            for _ in 0..20 {
+                let listed = |own: f64| Quad::new(Vector3::zero(), 1.0 + own);
+                // A fast one does not count.
+                skin.places = vec![listed(skin.thinnest), listed(1.0)];
+                let places = [used * skin.thinnest, 0.9].map(|x| Quad::new(Vector3::new(x, 0.0, 0.0), 1.0));
+                skin.adapt(&places, &Team::default());
+            }
+            skin.thinnest
         };
-        assert_eq!(outdated([0.09, 0.09], 0.09, &start), Outdated::No);
-        assert_eq!(outdated([0.0, 0.19], 0.0, &start), Outdated::No);
-        assert_eq!(outdated([0.09, 0.02], 0.12, &start), Outdated::Yes);
-        assert_eq!(outdated([0.11, 0.10], 0.0, &start), Outdated::Yes);
-        let lost = [Quad::new(Vector3::new(0.0, f64::NAN, 0.0), 1.0), Quad::default()];
-        assert_eq!(outdated([0.0, f64::NAN], 0.0, &lost), Outdated::Lost(0));
+        assert_eq!(adapted(0.1), THINNEST.start);
+        assert_eq!(adapted(1.5), THINNEST.start);
+        assert_eq!(adapted(3.0), THINNEST.end);
+        skin.set(0.3);
+        skin.adapt(&[], &Team::default());
+        assert_eq!((skin.thinnest, skin.thickest), (0.3, 0.3));
     }
 }

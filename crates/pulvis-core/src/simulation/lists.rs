@@ -2,30 +2,30 @@
 
 use super::{Outcome, Simulation};
 use crate::contacts::Surroundings;
-use crate::neighbours::CellGrid;
+use crate::neighbours::{CellGrid, Moved};
 use crate::particles::Load;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
 use crate::walls::Wall;
 
-/// The skin of the candidate list over the mean radius, in a packing and in a gas. Thicker lists are
+/// The thickest skin of a particle over the mean radius, in a packing and in a gas. Lists with thicker skins are
 /// renewed less often but hold more candidates that do not touch; a gas has few.
-const SKIN_OF_PACKING: f64 = 0.3;
-const SKIN_OF_GAS: f64 = 0.8;
+const SKIN_IN_PACKING: f64 = 0.3;
+const SKIN_IN_GAS: f64 = 0.8;
 /// The skin where periods leave no room for a better one.
-const SKIN_OF_SHORT_PERIODS: f64 = 0.2;
+const SKIN_IN_SHORT_PERIODS: f64 = 0.1;
 /// Candidates per particle below which the one is taken for a gas, and above which it is for a packing.
 const GAS: f64 = 1.0;
-const PACKING: f64 = 3.0;
+const PACKING: f64 = 2.0;
 
 impl Simulation {
     /// The skin to begin with, as far as periods allow.
     pub(super) fn choose_first_skin(&mut self) {
         let count = self.particles.len().max(1) as f64;
         self.mean_radius = self.particles.radius.iter().sum::<f64>() / count;
-        self.skin.thickness = SKIN_OF_PACKING * self.mean_radius;
+        self.skin.set_thickest(SKIN_IN_PACKING * self.mean_radius);
         if self.check_periods().is_err() {
-            self.skin.thickness = SKIN_OF_SHORT_PERIODS * self.mean_radius;
+            self.skin.set_thickest(SKIN_IN_SHORT_PERIODS * self.mean_radius);
         }
     }
 
@@ -49,17 +49,23 @@ impl Simulation {
         }
         let candidates = self.candidates() as f64 / self.particles.len().max(1) as f64;
         let suited = if candidates < GAS {
-            SKIN_OF_GAS
+            SKIN_IN_GAS
         } else if candidates > PACKING {
-            SKIN_OF_PACKING
+            SKIN_IN_PACKING
         } else {
             return false;
         };
-        let before = std::mem::replace(&mut self.skin.thickness, suited * self.mean_radius);
-        if self.check_periods().is_err() {
-            self.skin.thickness = before;
+        let before = self.skin.thickest;
+        let suited = suited * self.mean_radius;
+        if suited.to_bits() == before.to_bits() {
+            return false;
         }
-        before.to_bits() != self.skin.thickness.to_bits()
+        self.skin.set_thickest(suited);
+        let fits = self.check_periods().is_ok();
+        if !fits {
+            self.skin.set_thickest(before);
+        }
+        fits
     }
 
     /// Brings all positions back into the periodic box.
@@ -85,9 +91,11 @@ impl Simulation {
     /// Puts the particles into cell order and lists all candidates within reach and skin.
     pub(super) fn rebuild(&mut self) {
         self.wrap();
-        let margin = self.interactions.reach() + self.skin.thickness;
-        let (grid, order) = CellGrid::sort(&self.domain, &self.particles.place, margin);
+        self.skin.renew(&self.particles, self.time_step, &self.team);
+        self.skin.renew_walls(self.walls.iter().map(Wall::offset));
+        let (grid, order) = CellGrid::sort(&self.domain, self.skin.places(), self.interactions.reach());
         self.particles.reorder(&order, &self.team);
+        self.skin.reorder(&order, &self.team);
         let around = Surroundings {
             particles: &self.particles,
             order: &order,
@@ -95,13 +103,13 @@ impl Simulation {
             interactions: &self.interactions,
             walls: &self.walls,
             images: self.domain.images(),
-            skin: self.skin.thickness,
+            skin: &self.skin,
             instructions: self.instructions,
         };
         let places = self.contacts.rebuild(&around, &grid, &self.memory, &self.team);
         self.particles.loads.resize(places, Load::default());
         self.outcomes.clear();
-        self.outcomes.resize(self.contacts.pieces().len(), Outcome::default());
-        self.skin.renew(&self.particles.place, self.walls.iter().map(Wall::offset));
+        let moved = Moved::nowhere(self.skin.thinnest);
+        self.outcomes.resize(self.contacts.pieces().len(), Outcome { moved, ..Outcome::default() });
     }
 }

@@ -202,7 +202,7 @@ impl Simulation {
     /// Two centres farther apart than this cannot act on each other before the next list [m].
     fn search_radius(&self) -> f64 {
         let largest = self.particles.radius.iter().copied().fold(0.0, f64::max);
-        2.0 * largest + self.interactions.reach() + self.skin.thickness
+        2.0 * largest + self.interactions.reach() + 2.0 * self.skin.thickest
     }
 
     /// The area over which a wall's force is spread [m²], where it is known.

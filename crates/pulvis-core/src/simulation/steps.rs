@@ -5,7 +5,7 @@ use pulvis_math::Vector3;
 use super::{Simulation, StepError};
 use crate::contacts::{Advance, Sweep};
 use crate::integrator::{Columns, Kicks, Step};
-use crate::neighbours::{Moved, Outdated};
+use crate::neighbours::Moved;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
 use crate::walls::Wall;
@@ -74,35 +74,31 @@ impl Simulation {
         if surveyed {
             self.survey();
         }
-        let mut closed = self.closed(walls);
-        // What is no number does not hold either.
-        let holds = closed <= self.skin.thickness;
+        let mut holds = self.skin.holds(self.left_of_skins(), walls);
         if !surveyed && !holds {
             self.survey();
-            closed = self.closed(walls);
+            holds = self.skin.holds(self.left_of_skins(), walls);
         }
-        match self.skin.outdated(closed, &self.particles.place) {
-            Outdated::No => {
-                let outcomes = &self.outcomes;
-                self.contacts.close_gaps(|piece| outcomes[piece].moved, walls);
-                Ok(())
-            }
-            Outdated::Yes => {
-                self.renew_candidates();
-                Ok(())
-            }
-            Outdated::Lost(row) => {
-                let id = self.particles.id[row];
-                Err(StepError::Lost { id, step: self.step, time: self.time })
-            }
+        if holds {
+            let outcomes = &self.outcomes;
+            self.contacts.close_gaps(|piece| outcomes[piece].moved, walls);
+            return Ok(());
         }
+        let places = &self.particles.place;
+        if let Some(lost) = places.iter().position(|place| !place.vector.is_finite()) {
+            let id = self.particles.id[lost];
+            return Err(StepError::Lost { id, step: self.step, time: self.time });
+        }
+        self.skin.adapt(&self.particles.place, &self.team);
+        self.renew_candidates();
+        Ok(())
     }
 
-    /// By how much any gap can have closed since the candidates were listed [m], the walls having moved by
-    /// up to `walls` [m].
-    fn closed(&self, walls: f64) -> f64 {
-        let all = Moved::of_all(self.outcomes.iter().map(|outcome| outcome.moved));
-        all.closed().max(all.longest + walls)
+    /// What is left of the skin of whoever has least left of it, at the least [m].
+    fn left_of_skins(&self) -> f64 {
+        // What is no number comes through.
+        let least = |one: f64, other: f64| if other < one || other.is_nan() { other } else { one };
+        self.outcomes.iter().map(|outcome| outcome.moved.left).fold(f64::INFINITY, least)
     }
 
     /// Looks how far the particles have really moved.
@@ -198,8 +194,7 @@ impl Simulation {
             predicted.vector = now.vector;
         }
         // No block is passed over: whatever was switched may act at once.
-        let anywhere = Moved { longest: f64::INFINITY, second: f64::INFINITY };
-        self.contacts.close_gaps(|_| anywhere, f64::INFINITY);
+        self.contacts.close_gaps(|_| Moved::ANYWHERE, f64::INFINITY);
         let background_power = self.forces_and_kick(true, false);
         self.running.take_in(self.contacts.energies(), background_power, 0.0);
         for (state, &force) in self.wall_states.iter_mut().zip(&self.on_particles) {

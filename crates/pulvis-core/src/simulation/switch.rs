@@ -97,9 +97,10 @@ impl Simulation {
     /// candidates that do not touch. A skin must be thicker than what any particle moves in a step.
     pub fn set_skin(&mut self, thickness: f64) -> Result<(), SetupError> {
         // What is no number counts as no skin.
-        let before = std::mem::replace(&mut self.skin.thickness, thickness.max(0.0));
+        let before = self.skin.clone();
+        self.skin.set(0.5 * thickness.max(0.0));
         if let Err(error) = self.check_periods() {
-            self.skin.thickness = before;
+            self.skin = before;
             return Err(error);
         }
         self.chooses_skin = false;
