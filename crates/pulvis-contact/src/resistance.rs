@@ -35,8 +35,11 @@ pub(crate) struct Resistance<'a, R: Real> {
     overlap_mid: R,
     normal_mid: Vector3<R>,
     sideways_mid: Vector3<R>,
+    /// How long the contact was closed in this step [s], zero for an open one; and for how long it was not.
     elapsed: R,
     missed: R,
+    /// Whether it was for a part of the step.
+    began: R::Mask,
 }
 
 impl<'a, R: Real> Resistance<'a, R> {
@@ -77,6 +80,7 @@ impl<'a, R: Real> Resistance<'a, R> {
             sideways_mid: sideways * (R::one() + half_turn * opening),
             elapsed,
             missed: dt - elapsed,
+            began,
         }
     }
 
@@ -151,16 +155,18 @@ impl<'a, R: Real> Resistance<'a, R> {
         let spin_mid = motion.spin_i_mid - motion.spin_j_mid;
         let velocity_mid = self.normal_mid.dot(spin_mid) * lever_mid;
         let before = *spring;
-        let mut answer = slider.respond_along(
+        let (mut answer, slips) = slider.respond_along(
             &SpringMotion {
                 velocity: velocity.keep_where(self.touching),
-                displacement: (velocity_mid * self.elapsed).keep_where(self.touching),
+                displacement: velocity_mid * self.elapsed,
                 friction_reference: self.friction_reference,
             },
             spring,
         );
-        let half = R::splat(0.5 * slider.stiffness);
-        answer.dissipated_slip += half * (before + *spring) * (velocity_mid * self.missed);
+        if self.works_while_open(slips) {
+            let half = R::splat(0.5 * slider.stiffness);
+            answer.dissipated_slip += half * (before + *spring) * (velocity_mid * self.missed);
+        }
         let energies: &mut ContactEnergies<R> = &mut response.energies;
         energies.elastic_torsion = answer.stored_energy;
         energies.dissipated_torsion = answer.dissipated_slip;
@@ -203,20 +209,29 @@ impl<'a, R: Real> Resistance<'a, R> {
             }
         };
         *spring = carried;
-        let mut answer = slider.respond(
+        let (mut answer, slips) = slider.respond(
             &SpringMotion {
                 velocity: velocity.keep_where(self.touching),
-                displacement: step.tangential_to(normal).keep_where(self.touching),
+                displacement: step.tangential_to(normal),
                 friction_reference: self.friction_reference,
             },
             spring,
         );
         let half = R::splat(0.5 * slider.stiffness);
-        answer.dissipated_slip += half * (carried + *spring).dot(velocity_mid * self.missed);
+        if self.works_while_open(slips) {
+            answer.dissipated_slip += half * (carried + *spring).dot(velocity_mid * self.missed);
+        }
         if matches!(rotation, SpringRotation::Project | SpringRotation::Rate) {
             answer.dissipated_slip += half * (before.norm_squared() - carried.norm_squared());
         }
         answer
+    }
+
+    /// Whether any spring may have worked in a part of the step in which its contact was open: where it began in this
+    /// step, or has opened, with a spring that then `slips` to nothing.
+    #[inline(always)]
+    fn works_while_open(&self, slips: R::Mask) -> bool {
+        (self.began | slips).any()
     }
 
     /// The distances of the contact point from the two centres [m]. That from a wall means nothing, but is

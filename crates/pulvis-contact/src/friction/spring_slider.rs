@@ -169,7 +169,7 @@ impl SpringSlider {
         &self,
         motion: &SpringMotion<Vector3<R>, R>,
         spring: &mut Vector3<R>,
-    ) -> FrictionResponse<Vector3<R>, R> {
+    ) -> (FrictionResponse<Vector3<R>, R>, R::Mask) {
         let before = *spring;
         let trial = before + motion.displacement;
         let mut trial_force = trial * R::splat(-self.stiffness);
@@ -182,29 +182,23 @@ impl SpringSlider {
         let half = R::splat(0.5 * self.stiffness);
         // Squares are compared: the root and the quotient are for contacts that slide.
         let size_squared = trial_force.norm_squared();
-        let slides = size_squared.gt(static_limit * static_limit);
-        let mut factor = R::one();
-        if slides.any() {
+        let slips = size_squared.gt(static_limit * static_limit);
+        let (mut force, mut after, mut dissipated_slip) = (trial_force, trial, R::zero());
+        if slips.any() {
             let limit = R::splat(self.dynamic_coefficient) * motion.friction_reference;
-            factor = R::select(slides, limit / size_squared.sqrt(), factor);
+            let factor = R::select(slips, limit / size_squared.sqrt(), R::one());
+            force = trial_force * factor;
+            // The spring has the length that gives the limited force; otherwise it would keep the
+            // length of the trial and pull backwards when the motion reverses.
+            let spring_force = if self.dashpot != 0.0 { force + damping } else { force };
+            after = Vector3::select(slips, spring_force * R::splat(-1.0 / self.stiffness), trial);
+            // Where only other lanes slip, the last difference is zero.
+            dissipated_slip = half * (before + after).dot(trial - after);
         }
-        let force = trial_force * factor;
-        // The spring has the length that gives the limited force; otherwise it would keep the
-        // length of the trial and pull backwards when the motion reverses.
-        let mut spring_force = force;
-        let mut viscous_power = R::zero();
-        if self.dashpot != 0.0 {
-            spring_force += damping;
-            viscous_power = motion.velocity.dot(damping);
-        }
-        let after = Vector3::select(slides, spring_force * R::splat(-1.0 / self.stiffness), trial);
         *spring = after;
-        FrictionResponse {
-            force,
-            stored_energy: half * after.norm_squared(),
-            dissipated_slip: half * (before + after).dot(trial - after),
-            viscous_power,
-        }
+        let viscous_power = if self.dashpot != 0.0 { motion.velocity.dot(damping) } else { R::zero() };
+        let stored_energy = half * after.norm_squared();
+        (FrictionResponse { force, stored_energy, dissipated_slip, viscous_power }, slips)
     }
 
     /// The same for a spring along the line of centres (torsion).
@@ -213,27 +207,30 @@ impl SpringSlider {
         &self,
         motion: &SpringMotion<R, R>,
         spring: &mut R,
-    ) -> FrictionResponse<R, R> {
-        let opposing = R::splat(-self.stiffness);
-        let gamma = R::splat(self.dashpot);
+    ) -> (FrictionResponse<R, R>, R::Mask) {
         let before = *spring;
         let trial = before + motion.displacement;
-        let damping = motion.velocity * gamma;
-        let trial_force = trial * opposing - damping;
+        let mut trial_force = trial * R::splat(-self.stiffness);
+        let damping = motion.velocity * R::splat(self.dashpot);
+        if self.dashpot != 0.0 {
+            trial_force -= damping;
+        }
         let static_limit = R::splat(self.static_coefficient) * motion.friction_reference;
         let half = R::splat(0.5 * self.stiffness);
-        let slides = trial_force.abs().gt(static_limit);
-        let limit = R::splat(self.dynamic_coefficient) * motion.friction_reference;
-        let signed_limit = R::select(trial_force.lt(R::zero()), -limit, limit);
-        let force = R::select(slides, signed_limit, trial_force);
-        let after = R::select(slides, (force + damping) * R::splat(-1.0 / self.stiffness), trial);
-        *spring = after;
-        FrictionResponse {
-            force,
-            stored_energy: half * after * after,
-            dissipated_slip: half * (before + after) * (trial - after),
-            viscous_power: motion.velocity * damping,
+        let slips = trial_force.abs().gt(static_limit);
+        let (mut force, mut after, mut dissipated_slip) = (trial_force, trial, R::zero());
+        if slips.any() {
+            let limit = R::splat(self.dynamic_coefficient) * motion.friction_reference;
+            let signed_limit = R::select(trial_force.lt(R::zero()), -limit, limit);
+            force = R::select(slips, signed_limit, trial_force);
+            let spring_force = if self.dashpot != 0.0 { force + damping } else { force };
+            after = R::select(slips, spring_force * R::splat(-1.0 / self.stiffness), trial);
+            dissipated_slip = half * (before + after) * (trial - after);
         }
+        *spring = after;
+        let viscous_power = if self.dashpot != 0.0 { motion.velocity * damping } else { R::zero() };
+        let stored_energy = half * after * after;
+        (FrictionResponse { force, stored_energy, dissipated_slip, viscous_power }, slips)
     }
 }
 
@@ -250,7 +247,7 @@ mod tests {
             displacement: Vector3::new(displacement, 0.0, 0.0),
             friction_reference: reference,
         };
-        LAW.respond(&motion, spring)
+        LAW.respond(&motion, spring).0
     }
 
     #[test]
@@ -273,7 +270,7 @@ mod tests {
                 friction_reference: 1e-3,
             };
             let mut spring = Vector3::zero();
-            assert_eq!(law.respond(&motion, &mut spring).force, Vector3::new(-300.0, -400.0, 0.0));
+            assert_eq!(law.respond(&motion, &mut spring).0.force, Vector3::new(-300.0, -400.0, 0.0));
             assert_eq!(spring, motion.displacement);
         }
     }
@@ -316,7 +313,7 @@ mod tests {
         for step in 0..200 {
             let displacement = 1e-3 * (0.1 * f64::from(step)).sin();
             let motion = SpringMotion { velocity: 0.0, displacement, friction_reference: 0.3 };
-            let one = LAW.respond_along(&motion, &mut along);
+            let (one, _) = LAW.respond_along(&motion, &mut along);
             let three = pull(displacement, 0.3, &mut plane);
             assert!((one.force - three.force.x).abs() < 1e-15);
             assert!((one.dissipated_slip - three.dissipated_slip).abs() < 1e-18);
