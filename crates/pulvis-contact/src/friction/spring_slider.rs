@@ -192,8 +192,8 @@ impl SpringSlider {
             // length of the trial and pull backwards when the motion reverses.
             let spring_force = if self.dashpot != 0.0 { force + damping } else { force };
             after = Vector3::select(slips, spring_force * R::splat(-1.0 / self.stiffness), trial);
-            // Where only other lanes slip, the last difference is zero.
-            dissipated_slip = half * (before + after).dot(trial - after);
+            let lost = half * (before + after).dot(trial - after);
+            dissipated_slip = lost.keep_where(slips);
         }
         *spring = after;
         let viscous_power = if self.dashpot != 0.0 { motion.velocity.dot(damping) } else { R::zero() };
@@ -225,7 +225,8 @@ impl SpringSlider {
             force = R::select(slips, signed_limit, trial_force);
             let spring_force = if self.dashpot != 0.0 { force + damping } else { force };
             after = R::select(slips, spring_force * R::splat(-1.0 / self.stiffness), trial);
-            dissipated_slip = half * (before + after) * (trial - after);
+            let lost = half * (before + after) * (trial - after);
+            dissipated_slip = lost.keep_where(slips);
         }
         *spring = after;
         let viscous_power = if self.dashpot != 0.0 { motion.velocity * damping } else { R::zero() };
