@@ -163,7 +163,8 @@ pub(super) fn build(role: Role, values: &Values) -> Result<Option<SpringSlider>,
 }
 
 impl SpringSlider {
-    /// Advances a spring in the tangent plane (sliding, rolling) and answers with the force.
+    /// Advances a spring in the tangent plane (sliding, rolling) and answers with the force, and with whether the
+    /// spring slips.
     #[inline(always)]
     pub fn respond<R: Real>(
         &self,

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use pulvis_math::Quad;
+use pulvis_math::{InstructionSet, Quad};
 
+use super::moved::{Moved, Survey};
 use crate::particles::Particles;
 use crate::team::Team;
 
@@ -33,63 +34,6 @@ const THINNEST: Range<f64> = 0.1..0.5;
 /// Steps after which it is looked at how far particles have really moved. In between, the highest speed says
 /// how far at the most: that costs no look at where they were, which is far from any cache.
 const SURVEY: u64 = 8;
-
-/// How far particles have moved since they were listed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Moved {
-    /// The longest and the second longest way of any particle [m]: no gap between two particles has closed by
-    /// more than their sum.
-    pub(crate) longest: f64,
-    pub(crate) second: f64,
-    /// What is left of the skin of whoever has least left of it [m].
-    pub(crate) left: f64,
-}
-
-impl Default for Moved {
-    /// Of no particles.
-    fn default() -> Self {
-        Self { longest: 0.0, second: 0.0, left: f64::INFINITY }
-    }
-}
-
-impl Moved {
-    /// Nowhere yet, in skins at least so thick [m].
-    pub(crate) fn nowhere(skin: f64) -> Self {
-        Self { left: skin, ..Self::default() }
-    }
-
-    /// Anywhere.
-    pub(crate) const ANYWHERE: Self =
-        Self { longest: f64::INFINITY, second: f64::INFINITY, left: f64::NEG_INFINITY };
-
-    /// Takes in the way of one more particle, with its skin [m]; one that is no number counts as infinite.
-    #[inline(always)]
-    fn take_in(&mut self, way: f64, skin: f64) {
-        // Not `>`: a NaN must not be passed over.
-        let shorter = way <= self.second;
-        if !shorter {
-            let way = if way.is_nan() { f64::INFINITY } else { way };
-            self.second = way.min(self.longest);
-            self.longest = way.max(self.longest);
-        }
-        let less = skin - way < self.left;
-        self.left = if less || way.is_nan() { skin - way } else { self.left };
-    }
-
-    /// Of particles that were listed with these radii and skins.
-    fn of(places: &[Quad], listed: &[Quad]) -> Self {
-        let mut moved = Self::default();
-        for (now, before) in places.iter().zip(listed) {
-            moved.take_in((now.vector - before.vector).norm(), before.scalar - now.scalar);
-        }
-        moved
-    }
-
-    /// At the most, when all have gone on by up to `way`.
-    pub(crate) fn farther(self, way: f64) -> Self {
-        Self { longest: self.longest + way, second: self.second + way, left: self.left - way }
-    }
-}
 
 impl Skin {
     /// Sets the skin of all particles [m], whatever their speed.
@@ -166,8 +110,8 @@ impl Skin {
     }
 
     /// How far the particles of some rows, now at `places`, have moved since the list was made.
-    pub(crate) fn moved(&self, rows: Range<usize>, places: &[Quad]) -> Moved {
-        Moved::of(&places[rows.clone()], &self.places[rows])
+    pub(crate) fn moved(&self, rows: Range<usize>, places: &[Quad], instructions: InstructionSet) -> Moved {
+        instructions.run(Survey { places: &places[rows.clone()], listed: &self.places[rows] })
     }
 
     /// The longest way of any wall since the list was made [m].
@@ -191,30 +135,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_two_longest_ways_are_kept_in_any_order_and_the_least_that_is_left() {
-        for ways in [[1.0, 2.0, 3.0], [3.0, 2.0, 1.0], [2.0, 3.0, 1.0], [3.0, 1.0, 2.0]] {
-            let mut moved = Moved::default();
-            // Whoever has moved farthest has the thickest skin.
-            ways.into_iter().for_each(|way| moved.take_in(way, way * way));
-            assert_eq!(moved, Moved { longest: 3.0, second: 2.0, left: 0.0 });
-            moved.take_in(f64::NAN, 1.0);
-            assert_eq!((moved.longest, moved.second), (f64::INFINITY, 3.0));
-            assert!(moved.left.is_nan());
-            moved.take_in(0.0, 1.0);
-            assert!(!Skin::default().holds(moved.left, 0.0));
-        }
-    }
-
-    #[test]
     fn a_list_is_out_of_date_when_a_body_has_left_its_skin() {
         let skin = Skin { thickest: 0.2, thinnest: 0.1, ..Skin::default() };
         assert!(skin.holds(0.0, 0.1) && !skin.holds(0.0, 0.11));
-        assert!(!skin.holds(-1e-9, 0.0) && !skin.holds(f64::NAN, 0.0));
-        let listed = [Quad::new(Vector3::zero(), 1.1), Quad::new(Vector3::zero(), 1.2)];
-        let at = |x: f64| Quad::new(Vector3::new(x, 0.0, 0.0), 1.0);
-        let left = |one, other| Moved::of(&[at(one), at(other)], &listed).left;
-        assert!((left(0.04, 0.0) - 0.06).abs() < 1e-15 && (left(0.0, 0.19) - 0.01).abs() < 1e-15);
-        assert!(left(0.11, 0.0) < 0.0 && left(0.0, -0.21) < 0.0);
+        assert!(!skin.holds(-1e-9, 0.0) && !skin.holds(f64::NAN, 0.0) && !skin.holds(0.1, f64::NAN));
     }
 
     #[test]

@@ -104,8 +104,9 @@ impl Simulation {
     /// Looks how far the particles have really moved.
     fn survey(&mut self) {
         let (pieces, skin, places) = (self.contacts.pieces(), &self.skin, &self.particles.place);
+        let instructions = self.instructions;
         self.team.for_each(&mut self.outcomes, |number, outcome| {
-            outcome.moved = skin.moved(pieces[number].rows.clone(), places);
+            outcome.moved = skin.moved(pieces[number].rows.clone(), places, instructions);
         });
     }
 

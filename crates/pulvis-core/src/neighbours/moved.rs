@@ -1,0 +1,154 @@
+//! How far particles have moved.
+
+use pulvis_math::{Kernel, Octet, Quad, Real, Row, Vector3};
+
+/// How far particles have moved since they were listed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Moved {
+    /// The longest and the second longest way of any particle [m]: no gap between two particles has closed by
+    /// more than their sum.
+    pub(crate) longest: f64,
+    pub(crate) second: f64,
+    /// What is left of the skin of whoever has least left of it [m].
+    pub(crate) left: f64,
+}
+
+impl Default for Moved {
+    /// Of no particles.
+    fn default() -> Self {
+        Self { longest: 0.0, second: 0.0, left: f64::INFINITY }
+    }
+}
+
+impl Moved {
+    /// Nowhere yet, in skins at least so thick [m].
+    pub(crate) fn nowhere(skin: f64) -> Self {
+        Self { left: skin, ..Self::default() }
+    }
+
+    /// Anywhere.
+    pub(crate) const ANYWHERE: Self =
+        Self { longest: f64::INFINITY, second: f64::INFINITY, left: f64::NEG_INFINITY };
+
+    /// Takes in the way of one more particle, with its skin [m].
+    #[inline(always)]
+    fn take_in(&mut self, way: f64, skin: f64) {
+        self.second = self.second.max(way.min(self.longest));
+        self.longest = self.longest.max(way);
+        self.left = self.left.min(skin - way);
+    }
+
+    /// At the most, when all have gone on by up to `way`.
+    pub(crate) fn farther(self, way: f64) -> Self {
+        Self { longest: self.longest + way, second: self.second + way, left: self.left - way }
+    }
+}
+
+/// Looks how far particles have moved that were listed with these radii and skins.
+pub(super) struct Survey<'a> {
+    pub(super) places: &'a [Quad],
+    pub(super) listed: &'a [Quad],
+}
+
+impl Kernel for Survey<'_> {
+    type Output = Moved;
+
+    #[inline(always)]
+    fn run<R: Octet>(self) -> Moved {
+        let (places, last_places) = self.places.as_chunks::<8>();
+        let (listed, last_listed) = self.listed.as_chunks::<8>();
+        let (mut longest, mut second, mut left) = (R::zero(), R::zero(), R::splat(f64::INFINITY));
+        for (now, before) in places.iter().zip(listed) {
+            let [x, y, z, radius] = columns::<R>(now);
+            let [x_before, y_before, z_before, skinned] = columns::<R>(before);
+            let way = way_of(Vector3::new(x - x_before, y - y_before, z - z_before));
+            second = second.max(way.min(longest));
+            longest = longest.max(way);
+            left = left.min(skinned - radius - way);
+        }
+        let mut moved = Moved::default();
+        let [longest, second, left] = [longest.to_lanes(), second.to_lanes(), left.to_lanes()];
+        for lane in 0..8 {
+            moved.take_in(longest.0[lane], f64::INFINITY);
+            moved.take_in(second.0[lane], f64::INFINITY);
+            moved.left = moved.left.min(left.0[lane]);
+        }
+        for (now, before) in last_places.iter().zip(last_listed) {
+            moved.take_in(way_of(now.vector - before.vector), before.scalar - now.scalar);
+        }
+        moved
+    }
+}
+
+/// The length of a way; infinite if it is no number.
+#[inline(always)]
+fn way_of<R: Real>(way: Vector3<R>) -> R {
+    let way = way.norm();
+    R::select(way.lt(R::splat(f64::INFINITY)), way, R::splat(f64::INFINITY))
+}
+
+#[inline(always)]
+fn columns<R: Octet>(quads: &[Quad; 8]) -> [R; 4] {
+    R::columns([
+        R::Row::load(&quads[0]),
+        R::Row::load(&quads[1]),
+        R::Row::load(&quads[2]),
+        R::Row::load(&quads[3]),
+        R::Row::load(&quads[4]),
+        R::Row::load(&quads[5]),
+        R::Row::load(&quads[6]),
+        R::Row::load(&quads[7]),
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use pulvis_math::InstructionSet;
+
+    use super::*;
+
+    /// Particles of radius 1 that have moved so far along x, each in its skin.
+    fn moved(ways_and_skins: &[(f64, f64)]) -> Moved {
+        let at = |x: f64, radius: f64| Quad::new(Vector3::new(x, 0.0, 0.0), radius);
+        let places: Vec<Quad> = ways_and_skins.iter().map(|&(way, _)| at(way, 1.0)).collect();
+        let listed: Vec<Quad> = ways_and_skins.iter().map(|&(_, skin)| at(0.0, 1.0 + skin)).collect();
+        let sets = InstructionSet::available().into_iter();
+        let all: Vec<Moved> = sets.map(|set| set.run(Survey { places: &places, listed: &listed })).collect();
+        assert!(all.iter().all(|moved| *moved == all[0]), "{all:?}");
+        all[0]
+    }
+
+    #[test]
+    fn the_two_longest_ways_are_kept_in_any_order_and_the_least_that_is_left() {
+        for length in 3..30 {
+            for place in 0..length {
+                let mut all = vec![(-0.5, 1.0); length];
+                all[place] = (-3.0, 8.0);
+                all[(place + 1) % length] = (2.0, 2.25);
+                assert_eq!(moved(&all), Moved { longest: 3.0, second: 2.0, left: 0.25 });
+            }
+        }
+        assert_eq!(moved(&[]), Moved::default());
+    }
+
+    #[test]
+    fn what_is_nowhere_has_left_its_skin() {
+        for length in 1..20 {
+            for (place, nowhere) in
+                (0..length).flat_map(|place| [f64::NAN, f64::INFINITY].map(|x| (place, x)))
+            {
+                let mut all = vec![(0.0, 1.0); length];
+                all[place].0 = nowhere;
+                let moved = moved(&all);
+                assert_eq!((moved.longest, moved.left), (f64::INFINITY, f64::NEG_INFINITY));
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_left_of_a_skin_is_negative_where_it_has_been_left() {
+        let left = |one, other| moved(&[(one, 0.1), (other, 0.2)]).left;
+        assert!((left(0.04, 0.0) - 0.06).abs() < 1e-15 && (left(0.0, 0.19) - 0.01).abs() < 1e-15);
+        assert!(left(0.11, 0.0) < 0.0 && left(0.0, -0.21) < 0.0);
+    }
+}
