@@ -29,6 +29,9 @@ pub(crate) enum ConventionChoice {
 
 const SLIDING: &str = "[sliding]\nlaw = \"spring-slider\"\nkt = \"80 N/m\"\nmu = 0.5\n";
 
+/// LIGGGHTS's `luding` model gives the tangential spring the stiffness k1, whatever else its input says.
+const SLIDING_OF_LUDING: &str = "[sliding]\nlaw = \"spring-slider\"\nkt = \"100 N/m\"\nmu = 0.5\n";
+
 /// The peers' inputs have no torsion; the values are those of their rolling spring.
 const ROLLING_AND_TORSION: &str = "\
 [rolling]\nlaw = \"spring-slider\"\nkr = \"80 N/m\"\nmu_r = 0.1
@@ -43,8 +46,9 @@ const LUDING: &str = "\
 const LAMMPS: &str = "\
 [conventions]\nfriction_reference = \"total\"\nlever_arm = \"radius\"\nspring_rotation = \"project\"\n";
 
+/// Its `tangential history` limits friction by the normal force alone; its `tan_luding` adds kc δ.
 const LIGGGHTS: &str = "\
-[conventions]\nfriction_reference = \"total-adhesive-limit\"\nspring_rotation = \"project\"\n";
+[conventions]\nfriction_reference = \"total\"\nspring_rotation = \"project\"\n";
 
 /// The contact model of a workload; `damping_rate` is the linear law's dashpot over the reduced mass
 /// [1/s].
@@ -53,11 +57,12 @@ pub(crate) fn model(
     damping_rate: f64,
     conventions: ConventionChoice,
 ) -> Result<ContactModel, Failure> {
-    let normal = match law {
+    let (normal, sliding) = match law {
         LawChoice::Linear => {
-            format!("[normal]\nlaw = \"linear\"\nk = \"100 N/m\"\ndamping_rate = \"{damping_rate} 1/s\"\n")
+            let dashpot = format!("damping_rate = \"{damping_rate} 1/s\"\n");
+            (format!("[normal]\nlaw = \"linear\"\nk = \"100 N/m\"\n{dashpot}"), SLIDING)
         }
-        LawChoice::Luding | LawChoice::LudingFull => LUDING.to_owned(),
+        LawChoice::Luding | LawChoice::LudingFull => (LUDING.to_owned(), SLIDING_OF_LUDING),
     };
     let turning = if law == LawChoice::LudingFull { ROLLING_AND_TORSION } else { "" };
     let conventions = match (conventions, law) {
@@ -65,7 +70,7 @@ pub(crate) fn model(
         (ConventionChoice::Peer, LawChoice::Linear) => LAMMPS,
         (ConventionChoice::Peer, _) => LIGGGHTS,
     };
-    read(&format!("{normal}{SLIDING}{turning}{conventions}"))
+    read(&format!("{normal}{sliding}{turning}{conventions}"))
 }
 
 /// A contact model from the text of its tables.
