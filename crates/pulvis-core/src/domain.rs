@@ -78,6 +78,15 @@ impl Images {
     }
 }
 
+impl Images {
+    /// Whether the nearest image of a separation is another one.
+    #[inline(always)]
+    pub(crate) fn are_crossed(&self, separation: Vector3) -> bool {
+        let beyond = |axis: usize| separation[axis].abs() > 0.5 * self.periods[axis];
+        self.any && (beyond(0) | beyond(1) | beyond(2))
+    }
+}
+
 /// One component of the nearest image.
 #[inline(always)]
 fn nearest_along<R: Real>(component: R, period: f64) -> R {
@@ -98,6 +107,11 @@ mod tests {
         assert!((nearest.x + 0.1).abs() < 1e-15);
         assert_eq!(nearest.y, 1.9);
         assert_eq!(nearest.z, 1.0);
+        assert!(
+            images.are_crossed(Vector3::new(0.9, 1.9, 0.0))
+                && images.are_crossed(Vector3::new(0.0, 0.0, -1.6))
+        );
+        assert!(!images.are_crossed(Vector3::new(0.4, 1.9, -1.4)));
     }
 
     #[test]

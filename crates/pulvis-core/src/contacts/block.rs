@@ -55,6 +55,9 @@ pub(crate) struct ContactGroup {
     pub(crate) gap: Vec<f64>,
     /// How many batches of blocks the last sweep computed.
     pub(crate) batches: usize,
+    /// Whether the nearest images of any two bodies of the block were across a periodic boundary when it was listed:
+    /// until the next list they stay, or stay away, there.
+    pub(crate) across: Vec<bool>,
     /// What the last sweep added up to, lane by lane.
     pub(crate) energies: ContactEnergies<Lane>,
     /// The forces of the last sweep on the first bodies [N], wall by wall; empty for particles.
@@ -70,6 +73,8 @@ pub(crate) struct Candidate {
     pub(crate) sums: [u32; 2],
     /// Gap to the reach [m].
     pub(crate) gap: f64,
+    /// Whether the nearest image is across a periodic boundary.
+    pub(crate) across: bool,
 }
 
 impl ContactGroup {
@@ -87,6 +92,7 @@ impl ContactGroup {
                 filled: Vec::new(),
                 memory: Vec::new(),
                 live: Vec::new(),
+                across: Vec::new(),
                 gap: Vec::new(),
                 batches: 0,
                 energies,
@@ -98,6 +104,7 @@ impl ContactGroup {
         group.filled.clear();
         group.memory.clear();
         group.live.clear();
+        group.across.clear();
         group.gap.clear();
         group.wall_forces.clear();
         Self { model, layout, partner, energies, ..group }
@@ -115,6 +122,7 @@ impl ContactGroup {
             + size_of_val(&self.memory[..])
             + size_of_val(&self.gap[..])
             + self.live.len()
+            + self.across.len()
             + self.filled.len()
     }
 
@@ -126,6 +134,7 @@ impl ContactGroup {
         self.filled.reserve(blocks);
         self.memory.reserve(blocks * self.layout.columns());
         self.live.reserve(blocks);
+        self.across.reserve(blocks);
         self.gap.reserve(blocks);
     }
 
@@ -162,6 +171,7 @@ impl ContactGroup {
         self.sums.push(sums);
         self.filled.push(candidates.len() as u8);
         self.live.push(live);
+        self.across.push(candidates.iter().any(|candidate| candidate.across));
         self.gap.push(gap);
     }
 

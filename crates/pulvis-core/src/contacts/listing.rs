@@ -15,8 +15,9 @@ use crate::phases::Phases;
 
 /// Candidates are sorted into blocks by their gap over the thickest skin, up to these bounds and beyond: what touches
 /// now fills whole blocks, and blocks of what is far apart are passed over until something has moved.
-const GAP_CLASSES: [f64; CLASSES - 1] = [0.01, 0.06, 0.3];
-const CLASSES: usize = 4;
+const GAP_CLASSES: [f64; 3] = [0.01, 0.06, 0.3];
+/// In each class, pairs across a periodic boundary come last.
+const CLASSES: usize = 2 * (GAP_CLASSES.len() + 1);
 
 /// Room for the candidates of one piece after the other.
 #[derive(Clone, Debug, Default)]
@@ -90,6 +91,8 @@ impl Listing {
             *gap += skin_of(*one) + skin_of(*other);
             // Without branches: gaps follow no pattern.
             let class: usize = bounds.iter().map(|bound| usize::from(*gap > *bound)).sum();
+            let [first, second] = [*one, *other].map(|row| skinned[row as usize].vector);
+            let class = 2 * class + usize::from(images.are_crossed(first - second));
             (if skins_meet { group * CLASSES + class } else { far }) as u32
         }));
         counting_sort(classes, far + 1, &mut self.class_starts, &mut self.order);
@@ -102,7 +105,7 @@ impl Listing {
         spare: &mut impl Iterator<Item = ContactGroup>,
     ) {
         let id = &around.particles.id;
-        let Self { near, order, class_starts, halo, candidates, .. } = self;
+        let Self { near, classes, order, class_starts, halo, candidates, .. } = self;
         let (start, end) = (piece.rows.start as u32, piece.rows.end as u32);
         let near_ones = class_starts[class_starts.len() - 2] as usize;
         halo.begin(around.particles.len());
@@ -114,15 +117,16 @@ impl Listing {
             let pairs = &order[starts[0] as usize..starts[CLASSES] as usize];
             candidates.extend(pairs.iter().map(|&pair| {
                 let Near { rows: [one, other], gap } = near[pair as usize];
+                let across = classes[pair as usize] % 2 == 1;
                 let own = one - start;
                 let beyond = end - start + halo.place(other);
                 let others = if other < end { other - start } else { beyond };
                 // The first body of a contact is the one of the lower id: what the contact remembers
                 // does not change its sign when rows change their order.
                 if id[one as usize] < id[other as usize] {
-                    Candidate { rows: [one, other], sums: [own, others], gap }
+                    Candidate { rows: [one, other], sums: [own, others], gap, across }
                 } else {
-                    Candidate { rows: [other, one], sums: [others, own], gap }
+                    Candidate { rows: [other, one], sums: [others, own], gap, across }
                 }
             }));
             let mut group = ContactGroup::new(model, Partner::Particle, spare.next());
@@ -166,7 +170,7 @@ impl Listing {
                     if gap < skin.of_walls() + (skin.places()[row].scalar - scalar) {
                         let sum = (row - piece.rows.start) as u32;
                         let rows = [row as u32, wall_number as u32];
-                        candidates.push(Candidate { rows, sums: [sum, 0], gap });
+                        candidates.push(Candidate { rows, sums: [sum, 0], gap, across: false });
                     }
                 }
                 for block in candidates.chunks(WIDTH) {

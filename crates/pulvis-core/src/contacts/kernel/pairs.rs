@@ -76,7 +76,10 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
                 let [first, second] = rows;
                 let (centre_i, radius_i) = unsafe { gather::<R>(moving.place, first) };
                 let (centre_j, radius_j) = unsafe { gather::<R>(moving.place, second) };
-                let separation = advance.images.nearest(centre_i - centre_j);
+                let mut separation = centre_i - centre_j;
+                if unsafe { *group.across.get_unchecked(block) } {
+                    separation = advance.images.nearest(separation);
+                }
                 let distance = separation.norm();
                 let overlap = radius_i + radius_j - distance;
                 // Idle lanes are out of any reach.
