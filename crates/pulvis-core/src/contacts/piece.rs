@@ -9,7 +9,7 @@ use crate::phases::Phases;
 /// second-level cache.
 const ROWS: Range<usize> = 128..1024;
 /// Pieces that small systems are cut into, so that several threads find work.
-const PIECES: usize = 8;
+const PIECES: usize = 12;
 
 /// Consecutive rows, and every contact whose lower row is one of them.
 ///
