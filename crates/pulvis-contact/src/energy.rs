@@ -4,6 +4,8 @@ use std::ops::AddAssign;
 
 use pulvis_math::{Lanes, Octet, Real};
 
+use crate::resistance;
+
 macro_rules! contact_energies {
     (
         held { $($(#[$doc_held:meta])* $held:ident,)* }
@@ -22,12 +24,6 @@ macro_rules! contact_energies {
             #[inline(always)]
             pub fn add_held(&mut self, other: &Self) {
                 $(self.$held += other.$held;)*
-            }
-
-            /// Adds what was lost, and the power of the dashpots; what is held stays.
-            #[inline(always)]
-            pub fn add_lost(&mut self, other: &Self) {
-                $(self.$lost += other.$lost;)*
             }
         }
 
@@ -75,6 +71,27 @@ macro_rules! each_account {
             }
         }
     };
+}
+
+impl<R: Real> ContactEnergies<R> {
+    /// Adds what was lost by contacts of a level of [resistance], and the power of their dashpots; what is
+    /// held stays. Where a normal contact remembers nothing (`with_memory`), its force follows from the overlap, and it
+    /// loses nothing.
+    #[inline(always)]
+    pub fn add_lost<const RESISTANCE: u8>(&mut self, other: &Self, with_memory: bool) {
+        self.viscous_power += other.viscous_power;
+        if with_memory {
+            self.dissipated_plastic += other.dissipated_plastic;
+            self.dissipated_adhesive += other.dissipated_adhesive;
+        }
+        if RESISTANCE >= resistance::SLIDING {
+            self.dissipated_sliding += other.dissipated_sliding;
+        }
+        if RESISTANCE >= resistance::ALL {
+            self.dissipated_rolling += other.dissipated_rolling;
+            self.dissipated_torsion += other.dissipated_torsion;
+        }
+    }
 }
 
 contact_energies! {

@@ -43,7 +43,7 @@ impl Skin {
 
     /// Sets the thickest skin of a particle [m], and the others' as they are best to begin with.
     pub(crate) fn set_thickest(&mut self, thickness: f64) {
-        (self.thickest, self.thinnest) = (thickness, THINNEST.end * thickness);
+        (self.thickest, self.thinnest) = (thickness, THINNEST.start * thickness);
     }
 
     /// Makes the thinnest skin thicker where those that have it have come near its end, or thinner where they stayed

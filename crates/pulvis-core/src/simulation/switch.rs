@@ -92,8 +92,8 @@ impl Simulation {
         });
     }
 
-    /// Sets how far beyond their reach candidates are listed [m]; by default 0.3 of the mean
-    /// radius in a packing and 0.8 in a gas. Thicker lists are renewed less often but hold more
+    /// Sets how far beyond their reach candidates are listed [m], the same for all; by default this
+    /// depends on how fast both particles are. Thicker lists are renewed less often but hold more
     /// candidates that do not touch. A skin must be thicker than what any particle moves in a step.
     pub fn set_skin(&mut self, thickness: f64) -> Result<(), SetupError> {
         // What is no number counts as no skin.

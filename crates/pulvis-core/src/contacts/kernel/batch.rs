@@ -1,6 +1,8 @@
 //! Blocks on their way through the loops: gathered, computed, added up.
 
-use pulvis_contact::{Composition, ContactEnergies, NormalLaw, Pair, PairMotion, resistance};
+use pulvis_contact::{
+    Composition, ContactEnergies, Memory, NonContact, NormalLaw, Pair, PairMotion, resistance,
+};
 use pulvis_math::{Octet, Quad, Row, Twin, Vector3};
 
 use super::super::block::{Places, WIDTH};
@@ -118,6 +120,8 @@ impl<R: Octet> Batch<R> {
         energies: &mut ContactEnergies<R>,
     ) {
         let columns = response.layout.columns();
+        let with_memory = <N::Memory<R> as Memory<R>>::COLUMNS > 0
+            || !matches!(response.composition.noncontact, NonContact::None(_));
         for place in 0..self.count {
             let gathered = &self.gathered[place];
             // SAFETY: the caller's.
@@ -135,7 +139,7 @@ impl<R: Octet> Batch<R> {
             self.answered[place] =
                 Answered { force: answer.force, torque_i: answer.torque_i, torque_j: answer.torque_j };
             if LEDGER {
-                energies.add_lost(&answer.energies);
+                energies.add_lost::<RESISTANCE>(&answer.energies, with_memory);
                 // What is held is not even computed where nobody asks for it.
                 if response.held {
                     energies.add_held(&answer.energies);
