@@ -94,9 +94,8 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// So many sums, all zero, for the present piece, and as many as the next one is likely to need, which somebody `clears`
-    /// on the way: clearing them all at once would keep the processor waiting for
-    /// its caches.
+    /// So many sums, all zero, for the present piece, and as many as the next one is likely to need, which
+    /// somebody `clears` on the way: all at once, the processor would wait for its caches.
     fn turn(&mut self, [count, next_count]: [usize; 2], clears: bool) -> (&mut [Load], &mut [Load]) {
         std::mem::swap(&mut self.present, &mut self.next);
         if self.present.len() < count {

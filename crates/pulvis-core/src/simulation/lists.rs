@@ -15,8 +15,8 @@ const SKIN_IN_GAS: f64 = 0.8;
 /// The skin where periods leave no room for a better one.
 const SKIN_IN_SHORT_PERIODS: f64 = 0.1;
 /// Candidates per particle below which the one is taken for a gas, and above which it is for a packing.
-const GAS: f64 = 1.0;
-const PACKING: f64 = 2.0;
+const GAS: f64 = 1.5;
+const PACKING: f64 = 3.0;
 
 impl Simulation {
     /// The skin to begin with, as far as periods allow.
