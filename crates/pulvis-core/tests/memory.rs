@@ -64,6 +64,31 @@ fn what_flies_out_of_one_piece_of_rows_is_met_in_another() {
 }
 
 #[test]
+fn skins_by_speed_miss_no_contact_when_a_shock_runs_through_a_packing_and_around_a_periodic_box() {
+    let edge = 16.0 * RADIUS;
+    let domain = Domain::periodic(Vector3::zero(), vector(edge, edge, edge), [true; 3]);
+    let mut powder = Setup { domain, ..implosion(250, edge, 6, viscous_luding()) };
+    // All at rest, and so with thin skins, but for some fast ones near one face.
+    for particle in &mut powder.particles {
+        let fast = particle.position.x > 0.9 * edge;
+        particle.velocity = if fast { vector(3.0, 0.4, -0.3) } else { Vector3::zero() };
+    }
+    let mut both = [start(powder.clone(), 50.0), start(powder, 50.0)];
+    both[1].set_skin(0.6 * RADIUS).unwrap();
+    let initial = states(&both[0]);
+    both.iter_mut().for_each(|simulation| advance(simulation, 2_500));
+    let [by_speed, same] = &both;
+    let difference = difference(&domain, &states(by_speed), &states(same));
+    assert!(difference < 1e-9, "{difference}");
+    let reached = states(by_speed).into_iter().zip(&initial);
+    let reached =
+        reached.filter(|(now, then)| then.velocity == Vector3::zero() && now.velocity.norm() > 0.01);
+    let count = reached.count();
+    assert!(count > 100, "{count}");
+    assert!(by_speed.rebuilds() > 10, "{}", by_speed.rebuilds());
+}
+
+#[test]
 fn an_aggregate_that_flies_through_periodic_boundaries_stays_the_same() {
     let mut model = viscous_luding();
     model.composition.noncontact = NonContact::Reversible(Reversible { f_a: 1e-4, kc_a: 20.0 });
