@@ -65,8 +65,8 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel
 }
 
 impl<S, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, S, N, RESISTANCE, LEDGER> {
-    /// The law's text as the engine calls it. Forces are stored and energies summed, or else the compiler
-    /// would leave them out.
+    /// The law's text as the engine calls it. Forces are stored and losses summed, as in all steps but the last
+    /// of an advance, or else the compiler would leave them out.
     #[inline(always)]
     fn with<R: Real>(self)
     where
@@ -76,6 +76,7 @@ impl<S, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, S, N, 
         let places = MemoryColumns::<RESISTANCE>::of::<N>(&composition);
         let columns = places.count();
         let mut energies = ContactEnergies::<R>::default();
+        let with_memory = composition.remembers_normal_motion::<N>();
         for turn in 0..sweeps {
             let motions = &contacts.motions[turn % 2];
             for (group, stored) in motions.iter().enumerate() {
@@ -97,7 +98,7 @@ impl<S, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, S, N, 
                     store_vector(torque_j, answer.torque_j);
                 }
                 if LEDGER {
-                    energies += answer.energies;
+                    energies.add_lost::<RESISTANCE>(&answer.energies, with_memory);
                 }
             }
         }

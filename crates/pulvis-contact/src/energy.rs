@@ -75,8 +75,8 @@ macro_rules! each_account {
 
 impl<R: Real> ContactEnergies<R> {
     /// Adds what was lost by contacts of a level of [resistance], and the power of their dashpots; what is
-    /// held stays. Where a normal contact remembers nothing (`with_memory`), its force follows from the overlap, and it
-    /// loses nothing.
+    /// held stays. Along the normal nothing is lost unless something is
+    /// [remembered](crate::Composition::remembers_normal_motion) (`with_memory`).
     #[inline(always)]
     pub fn add_lost<const RESISTANCE: u8>(&mut self, other: &Self, with_memory: bool) {
         self.viscous_power += other.viscous_power;

@@ -8,7 +8,7 @@ use crate::conventions::Conventions;
 use crate::energy::ContactEnergies;
 use crate::friction::SpringSlider;
 use crate::noncontact::{self, NonContact};
-use crate::normal::{Normal, NormalLaw, NormalLawVisitor};
+use crate::normal::{Memory, Normal, NormalLaw, NormalLawVisitor};
 use crate::pair::Pair;
 use crate::resistance::{self, Resistance};
 use crate::viscosity::{self, Viscosity};
@@ -218,6 +218,13 @@ impl Composition {
     /// Whether any of the laws against sliding, rolling and torsion has a dashpot.
     pub fn has_resistance_dashpot(&self) -> bool {
         [self.sliding, self.rolling, self.torsion].iter().flatten().any(|slider| slider.dashpot != 0.0)
+    }
+
+    /// Whether the normal law or the attraction remembers anything: otherwise their force follows from the overlap, and
+    /// they lose nothing.
+    #[inline(always)]
+    pub fn remembers_normal_motion<N: NormalLaw>(&self) -> bool {
+        <N::Memory<f64> as Memory<f64>>::COLUMNS > 0 || self.noncontact.remembers_touch()
     }
 
     /// The lowest level of [`resistance`] that leaves none of the contact's laws out.

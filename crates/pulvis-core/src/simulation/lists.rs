@@ -55,15 +55,15 @@ impl Simulation {
         } else {
             return false;
         };
-        let before = self.skin.thickest;
+        let before = (self.skin.thickest, self.skin.thinnest);
         let suited = suited * self.mean_radius;
-        if suited.to_bits() == before.to_bits() {
+        if suited.to_bits() == before.0.to_bits() {
             return false;
         }
         self.skin.set_thickest(suited);
         let fits = self.check_periods().is_ok();
         if !fits {
-            self.skin.set_thickest(before);
+            (self.skin.thickest, self.skin.thinnest) = before;
         }
         fits
     }

@@ -1,8 +1,6 @@
 //! Blocks on their way through the loops: gathered, computed, added up.
 
-use pulvis_contact::{
-    Composition, ContactEnergies, Memory, NonContact, NormalLaw, Pair, PairMotion, resistance,
-};
+use pulvis_contact::{Composition, ContactEnergies, NormalLaw, Pair, PairMotion, resistance};
 use pulvis_math::{Octet, Quad, Row, Twin, Vector3};
 
 use super::super::block::{Places, WIDTH};
@@ -38,6 +36,8 @@ pub(super) struct Response<N> {
     pub(super) layout: Layout,
     /// The step that led to the present positions [s].
     pub(super) time_step: f64,
+    /// Whether anything can be lost along the normal.
+    pub(super) with_memory: bool,
     /// Whether what contacts hold is asked for, beside what they lose.
     pub(super) held: bool,
 }
@@ -120,8 +120,6 @@ impl<R: Octet> Batch<R> {
         energies: &mut ContactEnergies<R>,
     ) {
         let columns = response.layout.columns();
-        let with_memory = <N::Memory<R> as Memory<R>>::COLUMNS > 0
-            || !matches!(response.composition.noncontact, NonContact::None(_));
         for place in 0..self.count {
             let gathered = &self.gathered[place];
             // SAFETY: the caller's.
@@ -139,7 +137,7 @@ impl<R: Octet> Batch<R> {
             self.answered[place] =
                 Answered { force: answer.force, torque_i: answer.torque_i, torque_j: answer.torque_j };
             if LEDGER {
-                energies.add_lost::<RESISTANCE>(&answer.energies, with_memory);
+                energies.add_lost::<RESISTANCE>(&answer.energies, response.with_memory);
                 // What is held is not even computed where nobody asks for it.
                 if response.held {
                     energies.add_held(&answer.energies);

@@ -52,7 +52,8 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop
         let turning_dashpots = composition.has_resistance_dashpot();
         let reach = R::splat(-composition.noncontact.reach());
         let Advance { time_step, held, .. } = advance;
-        let response = Response { law, composition, layout: group.layout, time_step, held };
+        let (layout, with_memory) = (group.layout, composition.remembers_normal_motion::<N>());
+        let response = Response { law, composition, layout, time_step, with_memory, held };
         let mut energies = ContactEnergies::<R>::default();
         let mut batch = Batch::<R>::new();
         let blocks = group.rows.len();
