@@ -89,8 +89,8 @@ mod tests {
         for &law in LawChoice::value_variants() {
             for &conventions in ConventionChoice::value_variants() {
                 let model = model(law, 4000.0, conventions).unwrap();
-                assert!(model.composition.sliding.is_some());
-                assert_eq!(model.composition.torsion.is_some(), law == LawChoice::LudingFull);
+                assert!(model.laws.sliding.is_some());
+                assert_eq!(model.laws.torsion.is_some(), law == LawChoice::LudingFull);
             }
         }
     }
@@ -101,7 +101,7 @@ mod tests {
         let mass = 4.0 / 3.0 * std::f64::consts::PI * 2500.0 * 0.5e-3_f64.powi(3);
         let pair = Pair::spheres(mass, mass, 0.5e-3, 0.5e-3);
         let luding = model(LawChoice::Luding, 0.0, ConventionChoice::Own).unwrap();
-        let dashpot = luding.composition.viscosity.largest_coefficient(&pair);
+        let dashpot = luding.laws.viscosity.largest_coefficient(&pair);
         assert!((dashpot / (4000.0 * pair.reduced_mass()) - 1.0).abs() < 1e-2);
     }
 }

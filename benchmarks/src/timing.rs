@@ -29,7 +29,7 @@ pub(crate) fn run(name: &str, setup: Setup, run: &Run) -> Result<(), Failure> {
         simulation.set_instructions(instructions);
     }
     if !run.has_ledger() {
-        simulation.give_up_ledger();
+        simulation.disable_ledger();
     }
     simulation.advance(run.warm_up)?;
     let times = timed_steps(&mut simulation, run.steps)?;

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use pulvis_contact::{Composition, ContactEnergies, NormalLaw, Pair, resistance};
-use pulvis_math::{InstructionSet, Kernel, Lanes, Octet, Real};
+use pulvis_contact::{ContactEnergies, ContactLaws, NormalLaw, Pair, resistance};
+use pulvis_math::{F64Array, InstructionSet, Kernel, Real, Simd8};
 
 use super::contacts::{Contacts, Store};
 use super::stored::{MemoryColumns, Stored, load_motion, store_vector};
@@ -40,7 +40,7 @@ impl fmt::Display for Build {
 /// The sweeps to be done over contacts that are kept in columns of `S`.
 pub(super) struct Sweep<'a, S, N, const RESISTANCE: u8, const LEDGER: bool> {
     pub(super) law: N,
-    pub(super) composition: Composition,
+    pub(super) laws: ContactLaws,
     pub(super) contacts: &'a Contacts<S>,
     pub(super) store: &'a mut Store<S>,
     pub(super) sweeps: usize,
@@ -55,11 +55,11 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, f64, N, R
 }
 
 impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel
-    for Sweep<'_, Lanes<8>, N, RESISTANCE, LEDGER>
+    for Sweep<'_, F64Array<8>, N, RESISTANCE, LEDGER>
 {
     type Output = ();
     #[inline(always)]
-    fn run<R: Octet>(self) {
+    fn run<R: Simd8>(self) {
         self.with::<R>();
     }
 }
@@ -72,11 +72,11 @@ impl<S, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, S, N, 
     where
         S: Stored<R>,
     {
-        let Self { law, composition, contacts, store, sweeps } = self;
-        let places = MemoryColumns::<RESISTANCE>::of::<N>(&composition);
+        let Self { law, laws, contacts, store, sweeps } = self;
+        let places = MemoryColumns::<RESISTANCE>::of::<N>(&laws);
         let columns = places.count();
         let mut energies = ContactEnergies::<R>::default();
-        let with_memory = composition.remembers_normal_motion::<N>();
+        let with_memory = laws.remembers_normal_motion::<N>();
         for turn in 0..sweeps {
             let motions = &contacts.motions[turn % 2];
             for (group, stored) in motions.iter().enumerate() {
@@ -88,17 +88,16 @@ impl<S, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, S, N, 
                 let motion = load_motion::<R, S>(stored);
                 let slots = &mut store.memory[group * columns..(group + 1) * columns];
                 let mut memory = places.load::<R, S, N::Memory<R>>(slots);
-                let answer =
-                    composition.respond::<R, N, RESISTANCE>(&law, &pair, &motion, TIME_STEP, &mut memory);
+                let answer = laws.respond::<R, N, RESISTANCE>(&law, &pair, &motion, TIME_STEP, &mut memory);
                 places.store(&memory, slots);
-                let [force, torque_i, torque_j] = &mut store.loads[group];
+                let [force, torque_i, torque_j] = &mut store.forces_and_torques[group];
                 store_vector(force, answer.force);
                 if RESISTANCE != resistance::NONE {
                     store_vector(torque_i, answer.torque_i);
                     store_vector(torque_j, answer.torque_j);
                 }
                 if LEDGER {
-                    energies.add_lost::<RESISTANCE>(&answer.energies, with_memory);
+                    energies.add_dissipated::<RESISTANCE>(&answer.energies, with_memory);
                 }
             }
         }
@@ -120,25 +119,25 @@ mod tests {
     /// Force and torque of every contact after some sweeps, as bits.
     fn bits<S: Real>(store: &Store<S>) -> Vec<u64> {
         let contact = |contact: usize| {
-            let loads = store.loads[contact / S::LANES];
-            loads.into_iter().flat_map(move |vector| vector.lane(contact % S::LANES).to_array())
+            let forces_and_torques = store.forces_and_torques[contact / S::LANES];
+            forces_and_torques.into_iter().flat_map(move |vector| vector.lane(contact % S::LANES).to_array())
         };
         (0..COUNT).flat_map(contact).map(f64::to_bits).collect()
     }
 
-    struct EveryBuild(Composition);
+    struct EveryBuild(ContactLaws);
 
     impl NormalLawVisitor for EveryBuild {
         type Output = Vec<Vec<u64>>;
         fn visit<N: NormalLaw>(self, law: N) -> Vec<Vec<u64>> {
             fn swept<S: Real, N: NormalLaw>(
-                (law, composition): (N, Composition),
+                (law, laws): (N, ContactLaws),
                 run: impl Fn(Sweep<'_, S, N, { resistance::ALL }, true>),
             ) -> Vec<u64> {
                 let contacts = Contacts::<S>::new();
                 assert_eq!(contacts.count(), COUNT);
-                let mut store = Store::new::<N, { resistance::ALL }>(&contacts, &composition);
-                run(Sweep { law, composition, contacts: &contacts, store: &mut store, sweeps: 5 });
+                let mut store = Store::new::<N, { resistance::ALL }>(&contacts, &laws);
+                run(Sweep { law, laws, contacts: &contacts, store: &mut store, sweeps: 5 });
                 bits(&store)
             }
             let model = (law, self.0);
@@ -153,7 +152,7 @@ mod tests {
     #[test]
     fn every_build_computes_the_same_forces_and_torques() {
         for case in cases().unwrap() {
-            let mut answers = case.model.normal.accept(EveryBuild(case.model.composition)).into_iter();
+            let mut answers = case.model.normal.accept(EveryBuild(case.model.laws)).into_iter();
             let scalar = answers.next().unwrap();
             assert!(scalar.iter().any(|&bits| bits != 0), "{}", case.name);
             assert!(answers.all(|eight| eight == scalar), "{}", case.name);

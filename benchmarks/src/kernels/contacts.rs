@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use pulvis_contact::{Composition, ContactEnergies, NormalLaw, PairMotion};
+use pulvis_contact::{ContactEnergies, ContactKinematics, ContactLaws, NormalLaw};
 use pulvis_math::{Real, Vector3};
 
 use super::stored::MemoryColumns;
@@ -15,7 +15,7 @@ const COUNT: usize = 64;
 pub(super) struct Contacts<S> {
     /// One over the masses of i and j [1/kg] and over their radii [1/m].
     pub(super) inverses: Vec<[S; 4]>,
-    pub(super) motions: [Vec<PairMotion<S>>; 2],
+    pub(super) motions: [Vec<ContactKinematics<S>>; 2],
 }
 
 /// What the sweeps write.
@@ -23,7 +23,7 @@ pub(super) struct Store<S> {
     /// Contact memory: its columns of one group of contacts after those of the other.
     pub(super) memory: Vec<S>,
     /// Force [N], torque on i and torque on j [N m].
-    pub(super) loads: Vec<[Vector3<S>; 3]>,
+    pub(super) forces_and_torques: Vec<[Vector3<S>; 3]>,
     pub(super) energies: ContactEnergies,
 }
 
@@ -32,7 +32,7 @@ impl<S: Real> Contacts<S> {
     pub(super) fn new() -> Self {
         let groups = COUNT / S::LANES;
         let spread =
-            |group: usize, value: &dyn Fn(usize) -> f64| S::from_lanes(|lane| value(group * S::LANES + lane));
+            |group: usize, value: &dyn Fn(usize) -> f64| S::from_fn(|lane| value(group * S::LANES + lane));
         let inverses = |group: usize| {
             [
                 spread(group, &|contact| 1.0 / mass(radius(2 * contact))),
@@ -46,7 +46,7 @@ impl<S: Real> Contacts<S> {
                 let along = |axis: usize| spread(group, &|contact| value(contact, turn, axis));
                 Vector3::new(along(0), along(1), along(2))
             };
-            PairMotion {
+            ContactKinematics {
                 normal: vector(|contact, turn, axis| normal(contact, turn)[axis]),
                 overlap: spread(group, &|contact| overlap(contact, turn)),
                 inverse_distance: spread(group, &|contact| {
@@ -56,10 +56,14 @@ impl<S: Real> Contacts<S> {
                 radius_j: spread(group, &|contact| radius(2 * contact + 1)),
                 velocity: vector(|contact, turn, axis| velocity(5 * contact, turn, axis)),
                 velocity_mid: vector(|contact, turn, axis| velocity(5 * contact, turn, axis)),
-                spin_i: vector(|contact, turn, axis| 2e3 * velocity(5 * contact + 1, turn, axis)),
-                spin_j: vector(|contact, turn, axis| 2e3 * velocity(5 * contact + 2, turn, axis)),
-                spin_i_mid: vector(|contact, turn, axis| 2e3 * velocity(5 * contact + 1, turn, axis)),
-                spin_j_mid: vector(|contact, turn, axis| 2e3 * velocity(5 * contact + 2, turn, axis)),
+                angular_velocity_i: vector(|contact, turn, axis| 2e3 * velocity(5 * contact + 1, turn, axis)),
+                angular_velocity_j: vector(|contact, turn, axis| 2e3 * velocity(5 * contact + 2, turn, axis)),
+                angular_velocity_i_mid: vector(|contact, turn, axis| {
+                    2e3 * velocity(5 * contact + 1, turn, axis)
+                }),
+                angular_velocity_j_mid: vector(|contact, turn, axis| {
+                    2e3 * velocity(5 * contact + 2, turn, axis)
+                }),
             }
         };
         Self {
@@ -78,13 +82,13 @@ impl<S: Real> Store<S> {
     /// Virgin contacts.
     pub(super) fn new<N: NormalLaw, const RESISTANCE: u8>(
         contacts: &Contacts<S>,
-        composition: &Composition,
+        laws: &ContactLaws,
     ) -> Self {
         let groups = contacts.inverses.len();
-        let columns = MemoryColumns::<RESISTANCE>::of::<N>(composition).count();
+        let columns = MemoryColumns::<RESISTANCE>::of::<N>(laws).count();
         Self {
             memory: vec![S::zero(); groups * columns],
-            loads: vec![Default::default(); groups],
+            forces_and_torques: vec![Default::default(); groups],
             energies: ContactEnergies::default(),
         }
     }

@@ -7,8 +7,8 @@ mod stored;
 
 use std::time::Instant;
 
-use pulvis_contact::{Composition, NormalLaw, NormalLawVisitor, resistance};
-use pulvis_math::{Lanes, Real};
+use pulvis_contact::{ContactLaws, NormalLaw, NormalLawVisitor, resistance};
+use pulvis_math::{F64Array, Real};
 
 use crate::failure::Failure;
 use builds::{Build, Sweep};
@@ -36,8 +36,8 @@ pub(crate) fn run(only: &str) -> Result<(), Failure> {
         for ledger in [true, false] {
             print!("{:44}{:>8}", case.name, if ledger { "on" } else { "off" });
             for &build in &builds {
-                let composition = case.model.composition;
-                let cost = case.model.normal.accept(Measured { composition, build, ledger });
+                let laws = case.model.laws;
+                let cost = case.model.normal.accept(Measured { laws, build, ledger });
                 let ticks = cost.ticks.map_or(String::new(), |ticks| format!(" ({ticks:6.1})"));
                 print!("{:>20}", format!("{:.2}{ticks}", cost.nanoseconds));
             }
@@ -57,7 +57,7 @@ struct Cost {
 }
 
 struct Measured {
-    composition: Composition,
+    laws: ContactLaws,
     build: Build,
     ledger: bool,
 }
@@ -65,7 +65,7 @@ struct Measured {
 impl NormalLawVisitor for Measured {
     type Output = Cost;
     fn visit<N: NormalLaw>(self, law: N) -> Cost {
-        match (self.composition.resistance_level(), self.ledger) {
+        match (self.laws.resistance_level(), self.ledger) {
             (resistance::NONE, true) => self.of::<N, { resistance::NONE }, true>(law),
             (resistance::NONE, false) => self.of::<N, { resistance::NONE }, false>(law),
             (resistance::SLIDING, true) => self.of::<N, { resistance::SLIDING }, true>(law),
@@ -80,7 +80,9 @@ impl Measured {
     fn of<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(&self, law: N) -> Cost {
         match self.build {
             Build::Scalar => self.run_by::<f64, N, RESISTANCE, LEDGER>(law, |sweep| sweep.one_at_a_time()),
-            Build::Eight(set) => self.run_by::<Lanes<8>, N, RESISTANCE, LEDGER>(law, |sweep| set.run(sweep)),
+            Build::Eight(set) => {
+                self.run_by::<F64Array<8>, N, RESISTANCE, LEDGER>(law, |sweep| set.run(sweep))
+            }
         }
     }
 
@@ -90,15 +92,15 @@ impl Measured {
         law: N,
         run: impl Fn(Sweep<'_, S, N, RESISTANCE, LEDGER>),
     ) -> Cost {
-        let composition = self.composition;
+        let laws = self.laws;
         let contacts = Contacts::<S>::new();
-        let mut store = Store::new::<N, RESISTANCE>(&contacts, &composition);
+        let mut store = Store::new::<N, RESISTANCE>(&contacts, &laws);
         let mut pass = || {
-            run(Sweep { law, composition, contacts: &contacts, store: &mut store, sweeps: SWEEPS });
+            run(Sweep { law, laws, contacts: &contacts, store: &mut store, sweeps: SWEEPS });
         };
         pass();
         let fastest = (0..PASSES).map(|_| timed(&mut pass)).min_by(|a, b| a.0.total_cmp(&b.0));
-        std::hint::black_box((&store.memory, &store.loads, &store.energies));
+        std::hint::black_box((&store.memory, &store.forces_and_torques, &store.energies));
         let (seconds, ticks) = fastest.unwrap_or_default();
         let count = (SWEEPS * contacts.count()) as f64;
         Cost { nanoseconds: 1e9 * seconds / count, ticks: ticks.map(|ticks| ticks / count) }

@@ -1,7 +1,7 @@
 //! Numbers in memory, and contact memory in columns of them.
 
-use pulvis_contact::{Composition, ContactMemory, Memory, NormalLaw, PairMotion, resistance};
-use pulvis_math::{Lanes, Octet, Real, Vector3};
+use pulvis_contact::{ContactKinematics, ContactLaws, ContactMemory, Memory, NormalLaw, resistance};
+use pulvis_math::{F64Array, Real, Simd8, Vector3};
 
 /// What values of `R` are loaded from and stored to: one number, or eight beside each other.
 pub(super) trait Stored<R>: Real {
@@ -20,7 +20,7 @@ impl Stored<f64> for f64 {
     }
 }
 
-impl<R: Octet> Stored<R> for Lanes<8> {
+impl<R: Simd8> Stored<R> for F64Array<8> {
     #[inline(always)]
     fn load(&self) -> R {
         R::load(self)
@@ -44,8 +44,8 @@ pub(super) fn store_vector<R: Real, S: Stored<R>>(vector: &mut Vector3<S>, value
 }
 
 #[inline(always)]
-pub(super) fn load_motion<R: Real, S: Stored<R>>(motion: &PairMotion<S>) -> PairMotion<R> {
-    PairMotion {
+pub(super) fn load_motion<R: Real, S: Stored<R>>(motion: &ContactKinematics<S>) -> ContactKinematics<R> {
+    ContactKinematics {
         normal: load_vector(&motion.normal),
         overlap: motion.overlap.load(),
         inverse_distance: motion.inverse_distance.load(),
@@ -53,10 +53,10 @@ pub(super) fn load_motion<R: Real, S: Stored<R>>(motion: &PairMotion<S>) -> Pair
         radius_j: motion.radius_j.load(),
         velocity: load_vector(&motion.velocity),
         velocity_mid: load_vector(&motion.velocity_mid),
-        spin_i: load_vector(&motion.spin_i),
-        spin_j: load_vector(&motion.spin_j),
-        spin_i_mid: load_vector(&motion.spin_i_mid),
-        spin_j_mid: load_vector(&motion.spin_j_mid),
+        angular_velocity_i: load_vector(&motion.angular_velocity_i),
+        angular_velocity_j: load_vector(&motion.angular_velocity_j),
+        angular_velocity_i_mid: load_vector(&motion.angular_velocity_i_mid),
+        angular_velocity_j_mid: load_vector(&motion.angular_velocity_j_mid),
     }
 }
 
@@ -69,9 +69,9 @@ pub(super) struct MemoryColumns<const RESISTANCE: u8> {
 }
 
 impl<const RESISTANCE: u8> MemoryColumns<RESISTANCE> {
-    pub(super) fn of<N: NormalLaw>(composition: &Composition) -> Self {
+    pub(super) fn of<N: NormalLaw>(laws: &ContactLaws) -> Self {
         let normal = <N::Memory<f64> as Memory<f64>>::COLUMNS;
-        Self { normal, touched: composition.noncontact.remembers_touch() }
+        Self { normal, touched: laws.noncontact.remembers_touch() }
     }
 
     /// Number of columns.

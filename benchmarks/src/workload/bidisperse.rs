@@ -62,7 +62,7 @@ fn large_spheres(plan: &Plan, radius: f64, edge: f64) -> Vec<Particle> {
     places.map(|site| sphere(site, radius, Vector3::zero())).collect()
 }
 
-/// The sites at which a small sphere does not overlap a large one. No large sphere reaches across the
+/// The sites at which a small sphere does not overlap a large one. No large sphere ranges across the
 /// boundary of the cube.
 fn free_sites(large: &[Particle], edge: f64, per_edge: usize) -> Vec<Vector3> {
     let is_free =

@@ -22,7 +22,7 @@ const TIME_STEP: f64 = 4e-6;
 /// A sphere of material 0.
 fn sphere(position: Vector3, radius: f64, velocity: Vector3) -> Particle {
     let mass = 4.0 / 3.0 * PI * DENSITY * radius.powi(3);
-    Particle { material: 0, radius, mass, position, velocity, spin: Vector3::zero() }
+    Particle { material: 0, radius, mass, position, velocity, angular_velocity: Vector3::zero() }
 }
 
 /// Particles and walls of one material in open space.

@@ -29,7 +29,7 @@ pub enum LeverArm {
     Radius,
 }
 
-/// The length L that turns spins into the rolling and torsion velocities.
+/// The length L that turns angular velocities into the rolling and torsion velocities.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RollingLever {
     /// a12 = 2 a_i a_j/(a_i + a_j), of a wall contact 2 a_i.
@@ -46,7 +46,7 @@ pub struct Conventions {
     pub friction_reference: FrictionReference,
     /// The lever arms of the contact point.
     pub lever_arm: LeverArm,
-    /// The length that turns spins into rolling and torsion velocities.
+    /// The length that turns angular velocities into rolling and torsion velocities.
     pub rolling_lever: RollingLever,
     /// How springs follow the contact when it turns in space.
     pub spring_rotation: SpringRotation,

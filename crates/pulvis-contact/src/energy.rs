@@ -2,32 +2,32 @@
 
 use std::ops::AddAssign;
 
-use pulvis_math::{Lanes, Octet, Real};
+use pulvis_math::{F64Array, Real, Simd8};
 
 use crate::resistance;
 
 macro_rules! contact_energies {
     (
-        held { $($(#[$doc_held:meta])* $held:ident,)* }
-        lost { $($(#[$doc_lost:meta])* $lost:ident,)* }
+        stored { $($(#[$doc_stored:meta])* $stored:ident,)* }
+        dissipated { $($(#[$doc_dissipated:meta])* $dissipated:ident,)* }
     ) => {
         /// What a contact holds now, what it has lost since the last call, and at which power its
         /// dashpots take energy now.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct ContactEnergies<R = f64> {
-            $($(#[$doc_held])* pub $held: R,)*
-            $($(#[$doc_lost])* pub $lost: R,)*
+            $($(#[$doc_stored])* pub $stored: R,)*
+            $($(#[$doc_dissipated])* pub $dissipated: R,)*
         }
 
         impl<R: Real> ContactEnergies<R> {
             /// Adds what is held now; what was lost stays.
             #[inline(always)]
-            pub fn add_held(&mut self, other: &Self) {
-                $(self.$held += other.$held;)*
+            pub fn add_stored(&mut self, other: &Self) {
+                $(self.$stored += other.$stored;)*
             }
         }
 
-        each_account!($($held,)* $($lost,)*);
+        each_account!($($stored,)* $($dissipated,)*);
     };
 }
 
@@ -57,11 +57,11 @@ macro_rules! each_account {
 
             /// Lane by lane, in memory.
             #[inline(always)]
-            pub fn to_lanes(&self) -> ContactEnergies<Lanes<8>>
+            pub fn to_array(&self) -> ContactEnergies<F64Array<8>>
             where
-                R: Octet,
+                R: Simd8,
             {
-                ContactEnergies { $($account: self.$account.to_lanes(),)* }
+                ContactEnergies { $($account: self.$account.to_array(),)* }
             }
 
             /// Every account where `mask` holds, zero elsewhere.
@@ -76,9 +76,9 @@ macro_rules! each_account {
 impl<R: Real> ContactEnergies<R> {
     /// Adds what was lost by contacts of a level of [resistance], and the power of their dashpots; what is
     /// held stays. Along the normal nothing is lost unless something is
-    /// [remembered](crate::Composition::remembers_normal_motion) (`with_memory`).
+    /// [remembered](crate::ContactLaws::remembers_normal_motion) (`with_memory`).
     #[inline(always)]
-    pub fn add_lost<const RESISTANCE: u8>(&mut self, other: &Self, with_memory: bool) {
+    pub fn add_dissipated<const RESISTANCE: u8>(&mut self, other: &Self, with_memory: bool) {
         self.viscous_power += other.viscous_power;
         if with_memory {
             self.dissipated_plastic += other.dissipated_plastic;
@@ -95,7 +95,7 @@ impl<R: Real> ContactEnergies<R> {
 }
 
 contact_energies! {
-    held {
+    stored {
         /// Held by the normal law's elastic branch [J].
         elastic_normal,
         /// Held by the sliding spring [J].
@@ -107,7 +107,7 @@ contact_energies! {
         /// Potential of the attraction, zero out of reach [J].
         adhesive_potential,
     }
-    lost {
+    dissipated {
         /// Lost by plastic deformation since the last call [J].
         dissipated_plastic,
         /// Lost on the adhesive limit branch and by attraction that sets in suddenly, since the last call [J].

@@ -33,7 +33,7 @@ pub mod viscosity;
 pub use conventions::Conventions;
 pub use energy::ContactEnergies;
 pub use friction::SpringSlider;
-pub use model::{Composition, ContactMemory, ContactModel, ContactResponse, PairMotion};
+pub use model::{ContactKinematics, ContactLaws, ContactMemory, ContactModel, ContactResponse};
 pub use noncontact::NonContact;
 pub use normal::{Linear, Luding, Memory, Normal, NormalLaw, NormalLawVisitor, NormalResponse};
 pub use pair::Pair;

@@ -16,7 +16,7 @@ use crate::viscosity::{self, Viscosity};
 /// Everything of a contact but its normal law: chosen at run time, the same for every contact of a
 /// pair of materials.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Composition {
+pub struct ContactLaws {
     /// Attraction at a distance.
     pub noncontact: NonContact,
     /// Dashpot along the line of centres.
@@ -31,7 +31,7 @@ pub struct Composition {
     pub conventions: Conventions,
 }
 
-impl Default for Composition {
+impl Default for ContactLaws {
     fn default() -> Self {
         Self {
             noncontact: NonContact::None(noncontact::None),
@@ -50,7 +50,7 @@ pub struct ContactModel {
     /// Force along the line of centres.
     pub normal: Normal,
     /// The rest of the contact.
-    pub composition: Composition,
+    pub laws: ContactLaws,
 }
 
 /// What a contact remembers, over all its laws.
@@ -71,7 +71,7 @@ pub struct ContactMemory<R, M> {
 /// How two bodies i and j lie and move. Velocities come twice: at the time of the positions, which
 /// dashpots see, and at the middle of the step that led there, which springs follow.
 #[derive(Clone, Copy, Debug)]
-pub struct PairMotion<R> {
+pub struct ContactKinematics<R> {
     /// Unit vector from j to i; of a wall, the normal that points to the body.
     pub normal: Vector3<R>,
     /// Overlap δ, negative at a distance [m].
@@ -86,14 +86,14 @@ pub struct PairMotion<R> {
     pub velocity: Vector3<R>,
     /// The same at mid-step [m/s].
     pub velocity_mid: Vector3<R>,
-    /// Spin of i [rad/s].
-    pub spin_i: Vector3<R>,
-    /// Spin of j, zero for a wall [rad/s].
-    pub spin_j: Vector3<R>,
-    /// Spin of i at mid-step [rad/s].
-    pub spin_i_mid: Vector3<R>,
-    /// Spin of j at mid-step [rad/s].
-    pub spin_j_mid: Vector3<R>,
+    /// Angular velocity of i [rad/s].
+    pub angular_velocity_i: Vector3<R>,
+    /// Angular velocity of j, zero for a wall [rad/s].
+    pub angular_velocity_j: Vector3<R>,
+    /// Angular velocity of i at mid-step [rad/s].
+    pub angular_velocity_i_mid: Vector3<R>,
+    /// Angular velocity of j at mid-step [rad/s].
+    pub angular_velocity_j_mid: Vector3<R>,
 }
 
 /// Forces, torques and energies of a contact.
@@ -128,12 +128,12 @@ impl<R: Real> Default for ContactResponse<R> {
 impl ContactModel {
     /// A frictionless contact of one normal law.
     pub fn frictionless(normal: impl Into<Normal>) -> Self {
-        Self { normal: normal.into(), composition: Composition::default() }
+        Self { normal: normal.into(), laws: ContactLaws::default() }
     }
 
     /// How far beyond touching the contact acts [m].
-    pub fn reach(&self) -> f64 {
-        self.composition.noncontact.reach()
+    pub fn interaction_range(&self) -> f64 {
+        self.laws.noncontact.interaction_range()
     }
 
     /// Shortest duration [s] of any motion that the contact can make: π over its highest frequency,
@@ -150,11 +150,11 @@ impl ContactModel {
             None => Pair::wall(mass_i, radius_i),
         };
         let modes = Modes::new(&pair, body_i, body_j);
-        let laws = &self.composition;
-        let (stiffest, own_dashpot) = self.normal.accept(Steepest(pair));
+        let laws = &self.laws;
+        let (max_stiffness, own_dashpot) = self.normal.accept(Steepest(pair));
         let stiffness = |slider: Option<SpringSlider>| slider.map_or(0.0, |slider| slider.stiffness);
         let dashpot = |slider: Option<SpringSlider>| slider.map_or(0.0, |slider| slider.dashpot);
-        let squares = (stiffest.max(laws.noncontact.stiffest()) * pair.inverse_reduced_mass())
+        let squares = (max_stiffness.max(laws.noncontact.max_stiffness()) * pair.inverse_reduced_mass())
             .max(modes.highest(stiffness(laws.sliding), stiffness(laws.rolling)))
             .max(modes.turning * stiffness(laws.torsion));
         let normal_dashpot = own_dashpot + laws.viscosity.largest_coefficient(&pair);
@@ -205,11 +205,11 @@ struct Steepest(Pair);
 impl NormalLawVisitor for Steepest {
     type Output = (f64, f64);
     fn visit<N: NormalLaw>(self, law: N) -> (f64, f64) {
-        (law.stiffest(&self.0), law.dashpot(&self.0))
+        (law.max_stiffness(&self.0), law.dashpot(&self.0))
     }
 }
 
-impl Composition {
+impl ContactLaws {
     /// Whether the contact resists sliding, rolling or torsion.
     pub fn has_friction(&self) -> bool {
         self.sliding.is_some() || self.rolling.is_some() || self.torsion.is_some()
@@ -247,7 +247,7 @@ impl Composition {
         &self,
         law: &N,
         pair: &Pair<R>,
-        motion: &PairMotion<R>,
+        motion: &ContactKinematics<R>,
         time_step: f64,
         memory: &mut ContactMemory<R, N::Memory<R>>,
     ) -> ContactResponse<R> {

@@ -10,7 +10,7 @@ use pulvis_math::Real;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair<R = f64> {
     inverse_reduced_mass: R,
-    mean_curvature: R,
+    inverse_harmonic_radius: R,
 }
 
 impl<R: Real> Pair<R> {
@@ -31,21 +31,21 @@ impl<R: Real> Pair<R> {
     /// bits as of [`wall`](Self::wall).
     #[inline(always)]
     pub fn wall_from_inverses(inverse_mass: R, inverse_radius: R) -> Self {
-        Self { inverse_reduced_mass: inverse_mass, mean_curvature: R::splat(0.5) * inverse_radius }
+        Self { inverse_reduced_mass: inverse_mass, inverse_harmonic_radius: R::splat(0.5) * inverse_radius }
     }
 
     /// Two spheres, from the sum of one over their masses [1/kg] and that of one over their radii [1/m]. The
     /// same bits as of [`spheres`](Self::spheres).
     #[inline(always)]
     pub fn from_sums(inverse_masses: R, inverse_radii: R) -> Self {
-        Self { inverse_reduced_mass: inverse_masses, mean_curvature: R::splat(0.5) * inverse_radii }
+        Self { inverse_reduced_mass: inverse_masses, inverse_harmonic_radius: R::splat(0.5) * inverse_radii }
     }
 
     /// One pair a lane, from its index.
-    pub fn from_lanes(pair: impl Fn(usize) -> Pair<f64>) -> Self {
+    pub fn from_fn(pair: impl Fn(usize) -> Pair<f64>) -> Self {
         Self {
-            inverse_reduced_mass: R::from_lanes(|lane| pair(lane).inverse_reduced_mass),
-            mean_curvature: R::from_lanes(|lane| pair(lane).mean_curvature),
+            inverse_reduced_mass: R::from_fn(|lane| pair(lane).inverse_reduced_mass),
+            inverse_harmonic_radius: R::from_fn(|lane| pair(lane).inverse_harmonic_radius),
         }
     }
 
@@ -57,8 +57,8 @@ impl<R: Real> Pair<R> {
 
     /// One over the harmonic mean of the radii, (1/a_i + 1/a_j)/2, of a wall contact 1/(2 a_i) [1/m].
     #[inline(always)]
-    pub fn mean_curvature(&self) -> R {
-        self.mean_curvature
+    pub fn inverse_harmonic_radius(&self) -> R {
+        self.inverse_harmonic_radius
     }
 
     /// Reduced mass m_r = m_i m_j / (m_i + m_j), of a wall contact m_i [kg]. Costs a division.
@@ -72,7 +72,7 @@ impl<R: Real> Pair<R> {
     /// a division.
     #[inline(always)]
     pub fn harmonic_radius(&self) -> R {
-        R::one() / self.mean_curvature
+        R::one() / self.inverse_harmonic_radius
     }
 }
 

@@ -1,16 +1,16 @@
 //! How a contact's springs against sliding, rolling and torsion follow the two bodies.
 //!
-//! The constants are the levels of resistance for which [`Composition::respond`] is compiled; each
+//! The constants are the levels of resistance for which [`ContactLaws::respond`] is compiled; each
 //! holds the one before.
 //!
-//! [`Composition::respond`]: crate::Composition::respond
+//! [`ContactLaws::respond`]: crate::ContactLaws::respond
 
 use pulvis_math::{Mask, Real, Vector3};
 
 use crate::conventions::{Conventions, LeverArm, RollingLever};
 use crate::energy::ContactEnergies;
 use crate::friction::{FrictionResponse, SpringMotion, SpringRotation, SpringSlider, rescaled, twisted};
-use crate::model::{ContactResponse, PairMotion};
+use crate::model::{ContactKinematics, ContactResponse};
 use crate::pair::Pair;
 
 /// No resistance at all.
@@ -28,7 +28,7 @@ pub const ALL: u8 = 2;
 pub(crate) struct Resistance<'a, R: Real> {
     conventions: &'a Conventions,
     pair: &'a Pair<R>,
-    motion: &'a PairMotion<R>,
+    motion: &'a ContactKinematics<R>,
     touching: R::Mask,
     friction_reference: R,
     overlap: R,
@@ -49,7 +49,7 @@ impl<'a, R: Real> Resistance<'a, R> {
     pub(crate) fn new(
         conventions: &'a Conventions,
         pair: &'a Pair<R>,
-        motion: &'a PairMotion<R>,
+        motion: &'a ContactKinematics<R>,
         friction_reference: R,
         time_step: f64,
     ) -> Self {
@@ -98,11 +98,11 @@ impl<'a, R: Real> Resistance<'a, R> {
         // The velocity at the time of the positions is for the dashpot alone.
         let mut velocity = Vector3::zero();
         if slider.dashpot != 0.0 {
-            let spins = motion.spin_i * arm_i + motion.spin_j * arm_j;
-            velocity = motion.velocity.tangential_to(normal) + normal.cross(spins);
+            let angular_velocities = motion.angular_velocity_i * arm_i + motion.angular_velocity_j * arm_j;
+            velocity = motion.velocity.tangential_to(normal) + normal.cross(angular_velocities);
         }
-        let spins_mid = motion.spin_i_mid * mid_i + motion.spin_j_mid * mid_j;
-        let velocity_mid = self.sideways_mid + self.normal_mid.cross(spins_mid);
+        let surface_mid = motion.angular_velocity_i_mid * mid_i + motion.angular_velocity_j_mid * mid_j;
+        let velocity_mid = self.sideways_mid + self.normal_mid.cross(surface_mid);
         let answer = self.stretch(slider, velocity, velocity_mid, spring);
         let moment = answer.force.cross(normal);
         response.force += answer.force;
@@ -127,10 +127,10 @@ impl<'a, R: Real> Resistance<'a, R> {
         let (motion, normal) = (self.motion, self.motion.normal);
         let mut velocity = Vector3::zero();
         if slider.dashpot != 0.0 {
-            velocity = normal.cross(motion.spin_i - motion.spin_j) * -lever;
+            velocity = normal.cross(motion.angular_velocity_i - motion.angular_velocity_j) * -lever;
         }
-        let spin_mid = motion.spin_i_mid - motion.spin_j_mid;
-        let velocity_mid = self.normal_mid.cross(spin_mid) * -lever_mid;
+        let angular_velocity_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
+        let velocity_mid = self.normal_mid.cross(angular_velocity_mid) * -lever_mid;
         let answer = self.stretch(slider, velocity, velocity_mid, spring);
         let energies = &mut response.energies;
         energies.elastic_rolling = answer.stored_energy;
@@ -150,10 +150,10 @@ impl<'a, R: Real> Resistance<'a, R> {
         let (motion, normal) = (self.motion, self.motion.normal);
         let mut velocity = R::zero();
         if slider.dashpot != 0.0 {
-            velocity = normal.dot(motion.spin_i - motion.spin_j) * lever;
+            velocity = normal.dot(motion.angular_velocity_i - motion.angular_velocity_j) * lever;
         }
-        let spin_mid = motion.spin_i_mid - motion.spin_j_mid;
-        let velocity_mid = self.normal_mid.dot(spin_mid) * lever_mid;
+        let angular_velocity_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
+        let velocity_mid = self.normal_mid.dot(angular_velocity_mid) * lever_mid;
         let before = *spring;
         let (mut answer, slips) = slider.respond_along(
             &SpringMotion {
@@ -198,7 +198,9 @@ impl<'a, R: Real> Resistance<'a, R> {
             SpringRotation::Twist => {
                 let half = R::splat(0.5);
                 let turned = self.sideways_mid * (motion.inverse_distance * self.elapsed);
-                let twist = half * (motion.spin_i_mid + motion.spin_j_mid).dot(normal) * self.elapsed;
+                let twist = half
+                    * (motion.angular_velocity_i_mid + motion.angular_velocity_j_mid).dot(normal)
+                    * self.elapsed;
                 // The displacement was made, on average, half a twist ago.
                 step += normal.cross(step) * (half * twist);
                 twisted(before, normal, turned, twist)

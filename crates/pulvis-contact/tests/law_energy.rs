@@ -5,7 +5,7 @@
 use pulvis_contact::conventions::{FrictionReference, LeverArm, RollingLever};
 use pulvis_contact::friction::SpringRotation;
 use pulvis_contact::normal::Interpolation;
-use pulvis_contact::{Composition, ContactModel, Conventions, Luding, SpringSlider};
+use pulvis_contact::{ContactLaws, ContactModel, Conventions, Luding, SpringSlider};
 use pulvis_math::Vector3;
 use pulvis_testkit::contact::{Dance, RigidRotation, closing_errors, random_model, rigid_rotation};
 use pulvis_testkit::for_each_case;
@@ -25,7 +25,7 @@ fn every_combination_of_conventions_closes_its_energy_balance() {
         let mut model = random_model(draw);
         let dance = Dance::in_contact(&model, draw);
         for conventions in all_conventions() {
-            model.composition.conventions = conventions;
+            model.laws.conventions = conventions;
             closes_at_second_order(&model, &dance);
         }
     });
@@ -66,14 +66,14 @@ fn sticking(conventions: Conventions) -> ContactModel {
         Some(SpringSlider { stiffness, dashpot: 0.0, dynamic_coefficient, static_coefficient })
     };
     let normal = Luding { k1: 1e2, kp: 5e2, kc: 1e2, phi_f: 0.05, interpolation: Interpolation::Linear };
-    let composition = Composition {
+    let laws = ContactLaws {
         sliding: spring(20.0),
         rolling: spring(10.0),
         torsion: spring(15.0),
         conventions,
-        ..Composition::default()
+        ..ContactLaws::default()
     };
-    ContactModel { normal: normal.into(), composition }
+    ContactModel { normal: normal.into(), laws }
 }
 
 fn rotated(spring_rotation: SpringRotation, axis: Vector3, steps: u32) -> RigidRotation {
@@ -151,7 +151,7 @@ fn projected_and_rate_springs_lose_length_at_first_order_and_the_loss_is_booked(
 fn uncorrected_arms_make_a_turning_pair_slide_by_overlap_times_angle() {
     let conventions = Conventions { lever_arm: LeverArm::Radius, ..Conventions::default() };
     let mut model = sticking(conventions);
-    model.composition.rolling = None;
+    model.laws.rolling = None;
     let (overlap, angle) = (1e-4, 1e-3);
     let turn = rigid_rotation(&model, overlap, ACROSS, angle, 100);
     let slid = (turn.after.sliding - turn.before.sliding).norm();

@@ -9,7 +9,7 @@
 use std::f64::consts::PI;
 
 use pulvis_contact::normal::Interpolation;
-use pulvis_contact::{Composition, ContactModel, Linear, Luding, Normal, SpringSlider};
+use pulvis_contact::{ContactLaws, ContactModel, Linear, Luding, Normal, SpringSlider};
 use pulvis_math::Vector3;
 use pulvis_testkit::bodies::{Couple, Sphere};
 
@@ -28,19 +28,19 @@ fn spring(stiffness: f64, coefficient: f64) -> Option<SpringSlider> {
     })
 }
 
-fn model(normal: impl Into<Normal>, composition: Composition) -> ContactModel {
-    ContactModel { normal: normal.into(), composition }
+fn model(normal: impl Into<Normal>, laws: ContactLaws) -> ContactModel {
+    ContactModel { normal: normal.into(), laws }
 }
 
 /// A contact that holds without load: it rests at the force-free overlap of a plastic contact.
-fn holding(composition: Composition) -> (ContactModel, f64) {
+fn holding(laws: ContactLaws) -> (ContactModel, f64) {
     let law = Luding { k1: 1e3, kp: 2e3, kc: 1e3, phi_f: 1e-7, interpolation: Interpolation::Linear };
-    (model(law, composition), 1e-7)
+    (model(law, laws), 1e-7)
 }
 
 /// Two spheres, or a sphere and a wall, pressed to the plastic limit and back to rest.
-fn resting_pair(composition: Composition, with_partner: bool) -> Couple {
-    let (model, phi_f) = holding(composition);
+fn resting_pair(laws: ContactLaws, with_partner: bool) -> Couple {
+    let (model, phi_f) = holding(laws);
     // δ_p = kp/(kp − k1) φ_f a12 = 2 φ_f a12, force-free at φ_f a12; a wall has a12 = 2 a.
     let harmonic = if with_partner { RADIUS } else { 2.0 * RADIUS };
     let force_free = phi_f * harmonic;
@@ -87,11 +87,11 @@ fn oscillates_at(expected: f64, start: impl Fn() -> Couple, coordinate: impl Fn(
 
 #[test]
 fn a_sticking_contact_point_oscillates_at_its_frequency() {
-    let composition = Composition { sliding: spring(1e3, 1e3), ..Composition::default() };
+    let laws = ContactLaws { sliding: spring(1e3, 1e3), ..ContactLaws::default() };
     // ω² = k_t (1/m_r + a²/I_i + a²/I_j) = 7 k_t/m for two spheres, 7 k_t/(2 m) at a wall.
     for (with_partner, expected) in [(true, 2645.7513110646), (false, 1870.8286933870)] {
         let start = || {
-            let mut couple = resting_pair(composition, with_partner);
+            let mut couple = resting_pair(laws, with_partner);
             couple.i.velocity = X * 1e-7;
             couple
         };
@@ -103,20 +103,20 @@ fn a_sticking_contact_point_oscillates_at_its_frequency() {
 fn rolling_and_torsion_oscillate_at_their_frequencies() {
     // ω = L √(k (1/I_i + 1/I_j)) with L = a12: a for two spheres, 2 a at a wall.
     for (with_partner, expected) in [(true, 2236.0679774998), (false, 3162.2776601684)] {
-        let turning = |composition: Composition, spin: Vector3| {
+        let turning = |laws: ContactLaws, angular_velocity: Vector3| {
             move || {
-                let mut couple = resting_pair(composition, with_partner);
-                // Opposite spins: contact points do not slide.
-                couple.i.spin = spin;
+                let mut couple = resting_pair(laws, with_partner);
+                // Opposite angular velocities: contact points do not slide.
+                couple.i.angular_velocity = angular_velocity;
                 if let Some(j) = couple.j.as_mut() {
-                    j.spin = -spin;
+                    j.angular_velocity = -angular_velocity;
                 }
                 couple
             }
         };
-        let rolling = Composition { rolling: spring(1e3, 1e3), ..Composition::default() };
+        let rolling = ContactLaws { rolling: spring(1e3, 1e3), ..ContactLaws::default() };
         oscillates_at(expected, turning(rolling, Y * 1e-6), |couple| couple.springs().rolling.x);
-        let torsion = Composition { torsion: spring(1e3, 1e3), ..Composition::default() };
+        let torsion = ContactLaws { torsion: spring(1e3, 1e3), ..ContactLaws::default() };
         oscillates_at(expected, turning(torsion, Z * 1e-6), |couple| couple.springs().torsion);
     }
 }
@@ -124,11 +124,11 @@ fn rolling_and_torsion_oscillate_at_their_frequencies() {
 /// An oblique impact of two equal spheres; returns the tangential velocity of the contact point after it
 /// and the speed of separation [m/s].
 fn impact(normal: Linear, sliding: SpringSlider, approach: f64, sideways: f64, steps: f64) -> (f64, f64) {
-    let composition = Composition { sliding: Some(sliding), ..Composition::default() };
+    let laws = ContactLaws { sliding: Some(sliding), ..ContactLaws::default() };
     let mut first = Sphere::at_rest(MASS, RADIUS, Z * (2.0 * RADIUS));
     first.velocity = X * sideways - Z * approach;
     let mut couple =
-        Couple::new(&model(normal, composition), first, Some(Sphere::at_rest(MASS, RADIUS, Vector3::zero())));
+        Couple::new(&model(normal, laws), first, Some(Sphere::at_rest(MASS, RADIUS, Vector3::zero())));
     let dt = PI * (0.5 * MASS / STIFFNESS).sqrt() / steps;
     couple.step_until(dt, 100_000, |couple| couple.overlap <= 0.0);
     let separation = (couple.i.velocity - couple.j.unwrap().velocity).z;
@@ -172,11 +172,11 @@ fn a_sphere_that_slides_on_a_plane_comes_to_roll_with_five_sevenths_of_its_speed
     let (friction, speed, gravity) = (0.3, 1.0, 9.81);
     let stiffness = 1e6;
     let slider = SpringSlider { dashpot: 5.0, ..spring(2e5, friction).unwrap() };
-    let composition = Composition { sliding: Some(slider), ..Composition::default() };
+    let laws = ContactLaws { sliding: Some(slider), ..ContactLaws::default() };
     let load = MASS * gravity / stiffness;
     let mut sphere = Sphere::at_rest(MASS, RADIUS, Z * (RADIUS - load));
     sphere.velocity = X * speed;
-    let mut couple = Couple::new(&model(Linear::new(stiffness, 0.0), composition), sphere, None);
+    let mut couple = Couple::new(&model(Linear::new(stiffness, 0.0), laws), sphere, None);
     couple.gravity = -Z * gravity;
     couple.step(0.0);
     let dt = 2e-6;
@@ -189,7 +189,11 @@ fn a_sphere_that_slides_on_a_plane_comes_to_roll_with_five_sevenths_of_its_speed
     couple.steps(5_000, dt);
     // Afterwards it rolls.
     assert!((couple.i.velocity.x / (5.0 / 7.0 * speed) - 1.0).abs() < 1e-5, "{}", couple.i.velocity.x);
-    assert!((couple.i.spin.y * RADIUS / couple.i.velocity.x - 1.0).abs() < 1e-5, "{}", couple.i.spin.y);
+    assert!(
+        (couple.i.angular_velocity.y * RADIUS / couple.i.velocity.x - 1.0).abs() < 1e-5,
+        "{}",
+        couple.i.angular_velocity.y
+    );
     // And what it lost is 2/7 of its kinetic energy.
     assert!((couple.lost / (0.5 * MASS * speed * speed) - 2.0 / 7.0).abs() < 1e-4, "{}", couple.lost);
 }
@@ -203,9 +207,8 @@ fn coulomb_limits_refer_to_the_distance_from_the_tensile_limit() {
         let overlap = 2e-3;
         // kp δ − (kp − k1) D = f_hys gives the largest overlap D of the past.
         let past = (law.kp * overlap - elastic) / (law.kp - law.k1);
-        let composition = Composition { sliding: spring(1e3, 0.5), ..Composition::default() };
-        let mut couple =
-            Couple::new(&model(law, composition), Sphere::at_rest(1.0, 0.1, Z * (0.1 - past)), None);
+        let laws = ContactLaws { sliding: spring(1e3, 0.5), ..ContactLaws::default() };
+        let mut couple = Couple::new(&model(law, laws), Sphere::at_rest(1.0, 0.1, Z * (0.1 - past)), None);
         couple.i.position = Z * (0.1 - overlap);
         couple.i.velocity = Vector3::zero();
         couple.step(0.0);

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pulvis_contact::catalogue::{InvalidParameter, Role, Values};
-use pulvis_contact::{Composition, ContactModel, Linear, Normal, SpringSlider, friction};
+use pulvis_contact::{ContactLaws, ContactModel, Linear, Normal, SpringSlider, friction};
 
 fn luding(k1: f64, kp: f64) -> Result<Normal, InvalidParameter> {
     let values = Values::new().with("k1", k1).with("kp", kp).with("kc", 0.0).with("phi_f", 0.05);
@@ -55,9 +55,8 @@ fn sliding_and_rolling_springs_of_a_sphere_at_a_wall_stiffen_each_other() {
     // Along the wall the sphere has the coordinates (x, a φ) with masses m and 2/5 m, and stiffnesses
     // k_t (x + a φ)² and k_r (2 a φ)²: the larger root of λ² − λ (7/2 k_t + 10 k_r)/m + 10 k_t k_r/m² = 0.
     let (mass, radius, sliding, rolling) = (2e-6, 1e-3, 300.0, 70.0);
-    let composition =
-        Composition { sliding: spring(sliding), rolling: spring(rolling), ..Composition::default() };
-    let model = ContactModel { normal: Linear::new(1.0, 0.0).into(), composition };
+    let laws = ContactLaws { sliding: spring(sliding), rolling: spring(rolling), ..ContactLaws::default() };
+    let model = ContactModel { normal: Linear::new(1.0, 0.0).into(), laws };
     let half_trace = 0.5 * (3.5 * sliding + 10.0 * rolling) / mass;
     let determinant = 10.0 * sliding * rolling / (mass * mass);
     let highest = half_trace + (half_trace * half_trace - determinant).sqrt();
@@ -69,8 +68,8 @@ fn sliding_and_rolling_springs_of_a_sphere_at_a_wall_stiffen_each_other() {
 fn equal_spheres_slide_and_roll_independently() {
     let body = (2e-6, 1e-3);
     let time = |sliding, rolling| {
-        let composition = Composition { sliding, rolling, ..Composition::default() };
-        let model = ContactModel { normal: Linear::new(1.0, 0.0).into(), composition };
+        let laws = ContactLaws { sliding, rolling, ..ContactLaws::default() };
+        let model = ContactModel { normal: Linear::new(1.0, 0.0).into(), laws };
         model.shortest_contact_time(body, Some(body))
     };
     let together = time(spring(300.0), spring(70.0));

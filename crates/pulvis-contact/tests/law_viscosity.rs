@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use pulvis_contact::noncontact::{JumpIn, Reversible};
 use pulvis_contact::normal::Interpolation;
 use pulvis_contact::viscosity::{Constant, Hardening, OverlapPower, Restitution};
-use pulvis_contact::{Composition, ContactModel, Linear, Luding, NonContact, Normal, Viscosity};
+use pulvis_contact::{ContactLaws, ContactModel, Linear, Luding, NonContact, Normal, Viscosity};
 use pulvis_math::Vector3;
 use pulvis_testkit::bodies::{Couple, Sphere};
 
@@ -42,11 +42,11 @@ fn collide(model: &ContactModel, speed: f64, dt: f64) -> Collision {
 }
 
 fn model(normal: impl Into<Normal>, viscosity: impl Into<Option<Viscosity>>) -> ContactModel {
-    let mut composition = Composition::default();
+    let mut laws = ContactLaws::default();
     if let Some(viscosity) = viscosity.into() {
-        composition.viscosity = viscosity;
+        laws.viscosity = viscosity;
     }
-    ContactModel { normal: normal.into(), composition }
+    ContactModel { normal: normal.into(), laws }
 }
 
 const CONTACT_TIME: f64 = 7.4e-4;
@@ -127,14 +127,15 @@ fn a_dashpot_of_an_overlap_power_loses_the_energy_of_its_beta_function() {
 /// Speed out of reach after an elastic collision that started at `speed` just out of reach [m/s].
 fn attracted(attraction: NonContact, speed: f64, steps: f64) -> f64 {
     let radius = 1e-3;
-    let reach = attraction.reach();
-    let composition = Composition { noncontact: attraction, ..Composition::default() };
-    let law = ContactModel { normal: Linear::new(STIFFNESS, 0.0).into(), composition };
-    let mut sphere = Sphere::at_rest(REDUCED_MASS, radius, Vector3::new(0.0, 0.0, radius + 1.001 * reach));
+    let interaction_range = attraction.interaction_range();
+    let laws = ContactLaws { noncontact: attraction, ..ContactLaws::default() };
+    let law = ContactModel { normal: Linear::new(STIFFNESS, 0.0).into(), laws };
+    let mut sphere =
+        Sphere::at_rest(REDUCED_MASS, radius, Vector3::new(0.0, 0.0, radius + 1.001 * interaction_range));
     sphere.velocity.z = -speed;
     let mut couple = Couple::new(&law, sphere, None);
     couple.step_until(CONTACT_TIME / steps, 10_000_000, |couple| {
-        couple.overlap < -1.0005 * reach && couple.i.velocity.z > 0.0
+        couple.overlap < -1.0005 * interaction_range && couple.i.velocity.z > 0.0
     });
     couple.i.velocity.z
 }

@@ -30,13 +30,13 @@ fn model(law: &str) -> ContactModel {
     let interpolation = Interpolation::Linear;
     let mut model =
         ContactModel::frictionless(Luding { k1: 100.0, kp: 500.0, kc: 100.0, phi_f: 0.05, interpolation });
-    model.composition.viscosity = Viscosity::Constant(Constant { gamma_0: 2e-3 });
+    model.laws.viscosity = Viscosity::Constant(Constant { gamma_0: 2e-3 });
     if law != "luding" {
-        model.composition.sliding = Some(slider(100.0, 0.5));
+        model.laws.sliding = Some(slider(100.0, 0.5));
     }
     if law == "full" {
-        model.composition.rolling = Some(slider(50.0, 0.1));
-        model.composition.torsion = Some(slider(50.0, 0.1));
+        model.laws.rolling = Some(slider(50.0, 0.1));
+        model.laws.torsion = Some(slider(50.0, 0.1));
     }
     model
 }
@@ -56,7 +56,7 @@ fn setup(law: &str) -> Setup {
             mass,
             position,
             velocity: gaussian_vector(&mut random) * 0.05,
-            spin: gaussian_vector(&mut random) * 100.0,
+            angular_velocity: gaussian_vector(&mut random) * 100.0,
         })
         .collect();
     let mut interactions = Interactions::new(1);

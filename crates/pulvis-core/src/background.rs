@@ -22,7 +22,7 @@ pub struct Background {
 pub(crate) struct Drag {
     /// Against the velocity [N].
     pub(crate) force: Vector3,
-    /// Against the spin [N m].
+    /// Against the angular velocity [N m].
     pub(crate) torque: Vector3,
     /// Power lost [W].
     pub(crate) power: f64,
@@ -35,14 +35,14 @@ impl Background {
         self.drag != 0.0 || self.rotational_drag != 0.0
     }
 
-    /// The drag on a particle of the given velocity [m/s], spin [rad/s] and radius [m].
+    /// The drag on a particle of the given velocity [m/s], angular velocity [rad/s] and radius [m].
     #[inline(always)]
-    pub(crate) fn drag_on(&self, velocity: Vector3, spin: Vector3, radius: f64) -> Drag {
+    pub(crate) fn drag_on(&self, velocity: Vector3, angular_velocity: Vector3, radius: f64) -> Drag {
         let turning = self.rotational_drag * radius * radius;
         Drag {
             force: velocity * self.drag,
-            torque: spin * turning,
-            power: self.drag * velocity.norm_squared() + turning * spin.norm_squared(),
+            torque: angular_velocity * turning,
+            power: self.drag * velocity.norm_squared() + turning * angular_velocity.norm_squared(),
         }
     }
 }

@@ -1,22 +1,22 @@
 //! Sorting by small whole numbers.
 
-/// Sorts places by their keys, which are below `count`: `order` tells which place comes where, those of equal keys in
+/// Sorts indices by their keys, which are below `count`: `order` tells which index comes where, those of equal keys in
 /// ascending order, and `starts` where each key begins, and the end.
 pub(crate) fn counting_sort(keys: &[u32], count: usize, starts: &mut Vec<u32>, order: &mut Vec<u32>) {
-    // Counts are kept two places later, so that the next free places, which end up as the places where
-    // the next keys begin, can be kept one place later: no second array is needed.
+    // Counts are kept two indices later, so that the next free indices, which end up as the indices where
+    // the next keys begin, can be kept one index later: no second array is needed.
     starts.clear();
     starts.resize(count + 2, 0);
     for &key in keys {
         starts[key as usize + 2] += 1;
     }
-    for place in 2..starts.len() {
-        starts[place] += starts[place - 1];
+    for index in 2..starts.len() {
+        starts[index] += starts[index - 1];
     }
     order.resize(keys.len(), 0);
-    for (place, &key) in keys.iter().enumerate() {
+    for (index, &key) in keys.iter().enumerate() {
         let next = &mut starts[key as usize + 1];
-        order[*next as usize] = place as u32;
+        order[*next as usize] = index as u32;
         *next += 1;
     }
     starts.pop();

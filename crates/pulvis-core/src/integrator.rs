@@ -1,22 +1,22 @@
-//! Synchronised velocity-Verlet, one piece of rows at a time.
+//! Synchronised velocity-Verlet, one chunk of rows at a time.
 
 use std::ops::Range;
 
-use pulvis_math::{Kernel, Octet, Quad, Row};
+use pulvis_math::{Kernel, Packed4, Simd4, Simd8};
 
 use crate::background::Background;
-use crate::particles::{Load, Particles};
+use crate::particles::{ForceTorque, Particles};
 use crate::shared::Shared;
 
-/// The columns that the integrator works on; see [`Particles`] for what the quads hold.
+/// The columns that the integrator works on; see [`Particles`] for what the packed vectors hold.
 #[derive(Clone, Copy)]
 pub(crate) struct Columns<'a> {
-    place: Shared<'a, Quad>,
-    velocity: Shared<'a, Quad>,
-    spin: Shared<'a, Quad>,
-    velocity_predicted: Shared<'a, Quad>,
-    spin_predicted: Shared<'a, Quad>,
-    pub(crate) loads: Shared<'a, Load>,
+    position: Shared<'a, Packed4>,
+    velocity: Shared<'a, Packed4>,
+    angular_velocity: Shared<'a, Packed4>,
+    velocity_predicted: Shared<'a, Packed4>,
+    angular_velocity_predicted: Shared<'a, Packed4>,
+    pub(crate) forces_and_torques: Shared<'a, ForceTorque>,
     mass: &'a [f64],
 }
 
@@ -24,24 +24,24 @@ impl<'a> Columns<'a> {
     /// The columns of the particles.
     pub(crate) fn of(particles: &'a mut Particles) -> Self {
         Self {
-            place: Shared::new(&mut particles.place),
+            position: Shared::new(&mut particles.position),
             velocity: Shared::new(&mut particles.velocity),
-            spin: Shared::new(&mut particles.spin),
+            angular_velocity: Shared::new(&mut particles.angular_velocity),
             velocity_predicted: Shared::new(&mut particles.velocity_predicted),
-            spin_predicted: Shared::new(&mut particles.spin_predicted),
-            loads: Shared::new(&mut particles.loads),
+            angular_velocity_predicted: Shared::new(&mut particles.angular_velocity_predicted),
+            forces_and_torques: Shared::new(&mut particles.forces_and_torques),
             mass: &particles.mass,
         }
     }
 
     /// What the contact loop reads of them.
-    pub(crate) fn moving(&self) -> crate::contacts::Moving<'a> {
-        crate::contacts::Moving {
-            place: self.place,
+    pub(crate) fn moving(&self) -> crate::contacts::KinematicColumns<'a> {
+        crate::contacts::KinematicColumns {
+            position: self.position,
             velocity_mid: self.velocity,
             velocity: self.velocity_predicted,
-            spin_mid: self.spin,
-            spin: self.spin_predicted,
+            angular_velocity_mid: self.angular_velocity,
+            angular_velocity: self.angular_velocity_predicted,
         }
     }
 }
@@ -54,10 +54,10 @@ const INVERSE_INERTIA: f64 = 2.5;
 ///
 /// Predicted velocities are those at the end of the step if forces stay as they are: what dashpots see,
 /// at the same instant as the positions.
-pub(crate) struct Kicks<'a, const FINISH: bool, const BEGIN: bool> {
+pub(crate) struct HalfKicks<'a, const FINISH: bool, const BEGIN: bool> {
     columns: Columns<'a>,
     rows: Range<usize>,
-    loads: &'a mut [Load],
+    forces_and_torques: &'a mut [ForceTorque],
     background: &'a Background,
     step: Step,
 }
@@ -67,11 +67,11 @@ pub(crate) struct Kicks<'a, const FINISH: bool, const BEGIN: bool> {
 pub(crate) struct Step {
     /// Duration [s].
     pub(crate) time_step: f64,
-    /// Whether anybody looks at predicted spins.
-    pub(crate) predicts_spins: bool,
+    /// Whether anybody looks at predicted angular velocities.
+    pub(crate) predicts_angular_velocities: bool,
 }
 
-/// What comes out of the [`Kicks`].
+/// What comes out of the [`HalfKicks`].
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Kicked {
     /// Power that the drag takes [W].
@@ -80,8 +80,8 @@ pub(crate) struct Kicked {
     pub(crate) fastest: f64,
 }
 
-impl<'a, const FINISH: bool, const BEGIN: bool> Kicks<'a, FINISH, BEGIN> {
-    /// For the rows with the `loads` on them: those of the contacts, to which the second half kick adds
+impl<'a, const FINISH: bool, const BEGIN: bool> HalfKicks<'a, FINISH, BEGIN> {
+    /// For the rows with the `forces_and_torques` on them: those of the contacts, to which the second half kick adds
     /// the `background`.
     ///
     /// # Safety
@@ -89,73 +89,87 @@ impl<'a, const FINISH: bool, const BEGIN: bool> Kicks<'a, FINISH, BEGIN> {
     pub(crate) unsafe fn new(
         columns: Columns<'a>,
         rows: Range<usize>,
-        loads: &'a mut [Load],
+        forces_and_torques: &'a mut [ForceTorque],
         background: &'a Background,
         step: Step,
     ) -> Self {
-        Self { columns, rows, loads, background, step }
+        Self { columns, rows, forces_and_torques, background, step }
     }
 }
 
-impl<const FINISH: bool, const BEGIN: bool> Kernel for Kicks<'_, FINISH, BEGIN> {
+impl<const FINISH: bool, const BEGIN: bool> Kernel for HalfKicks<'_, FINISH, BEGIN> {
     type Output = Kicked;
 
     #[inline(always)]
-    fn run<R: Octet>(self) -> Kicked {
-        let Self { columns, rows, loads, background, step: Step { time_step, predicts_spins } } = self;
-        let loads = &mut loads[..rows.len()];
+    fn run<R: Simd8>(self) -> Kicked {
+        let Self {
+            columns,
+            rows,
+            forces_and_torques,
+            background,
+            step: Step { time_step, predicts_angular_velocities },
+        } = self;
+        let forces_and_torques = &mut forces_and_torques[..rows.len()];
         let mass = &columns.mass[rows.clone()];
         // SAFETY: as `new` demands.
-        let (place, velocity, spin, velocity_predicted, spin_predicted) = unsafe {
+        let (position, velocity, angular_velocity, velocity_predicted, angular_velocity_predicted) = unsafe {
             (
-                columns.place.range_mut(rows.clone()),
+                columns.position.range_mut(rows.clone()),
                 columns.velocity.range_mut(rows.clone()),
-                columns.spin.range_mut(rows.clone()),
+                columns.angular_velocity.range_mut(rows.clone()),
                 columns.velocity_predicted.range_mut(rows.clone()),
-                columns.spin_predicted.range_mut(rows.clone()),
+                columns.angular_velocity_predicted.range_mut(rows.clone()),
             )
         };
         let half = 0.5 * time_step;
-        let step = R::Row::splat(time_step);
-        let gravity = R::Row::load(&Quad::new(background.gravity, 0.0));
+        let step = R::Simd4::splat(time_step);
+        let gravity = R::Simd4::load(&Packed4::new(background.gravity, 0.0));
         let mut kicked = Kicked::default();
         for row in 0..rows.len() {
-            let (inverse_mass, inverse_radius) = (velocity[row].scalar, spin[row].scalar);
+            let (inverse_mass, inverse_radius) = (velocity[row].scalar, angular_velocity[row].scalar);
             let inverse_inertia = INVERSE_INERTIA * inverse_mass * inverse_radius * inverse_radius;
-            let (mut push, mut turn) = (R::Row::load(&loads[row].force), R::Row::load(&loads[row].torque));
+            let (mut push, mut turn) = (
+                R::Simd4::load(&forces_and_torques[row].force),
+                R::Simd4::load(&forces_and_torques[row].torque),
+            );
             if FINISH {
-                push = push.plus(gravity.times(R::Row::splat(mass[row])));
+                push = push.plus(gravity.times(R::Simd4::splat(mass[row])));
                 if background.has_drag() {
-                    let (velocity, spin) = (velocity_predicted[row].vector, spin_predicted[row].vector);
-                    let drag = background.drag_on(velocity, spin, place[row].scalar);
+                    let (velocity, angular_velocity) =
+                        (velocity_predicted[row].vector, angular_velocity_predicted[row].vector);
+                    let drag = background.drag_on(velocity, angular_velocity, position[row].scalar);
                     kicked.power += drag.power;
-                    push = push.minus(R::Row::load(&Quad::new(drag.force, 0.0)));
-                    turn = turn.minus(R::Row::load(&Quad::new(drag.torque, 0.0)));
+                    push = push.minus(R::Simd4::load(&Packed4::new(drag.force, 0.0)));
+                    turn = turn.minus(R::Simd4::load(&Packed4::new(drag.torque, 0.0)));
                 }
                 if !BEGIN {
-                    push.store(&mut loads[row].force);
-                    turn.store(&mut loads[row].torque);
+                    push.store(&mut forces_and_torques[row].force);
+                    turn.store(&mut forces_and_torques[row].torque);
                 }
             }
-            let kick = push.times(R::Row::splat(half * inverse_mass));
-            let turning = turn.times(R::Row::splat(half * inverse_inertia));
-            let (velocity_before, spin_before) = (R::Row::load(&velocity[row]), R::Row::load(&spin[row]));
+            let kick = push.times(R::Simd4::splat(half * inverse_mass));
+            let turning = turn.times(R::Simd4::splat(half * inverse_inertia));
+            let (velocity_before, spin_before) =
+                (R::Simd4::load(&velocity[row]), R::Simd4::load(&angular_velocity[row]));
             let (mut velocity_now, mut spin_now) = (velocity_before.plus(kick), spin_before.plus(turning));
             if FINISH && BEGIN {
                 velocity_now = velocity_now.plus(kick);
                 spin_now = spin_now.plus(turning);
             }
             velocity_now.with_scalar_of(velocity_before).store(&mut velocity[row]);
-            spin_now.with_scalar_of(spin_before).store(&mut spin[row]);
+            spin_now.with_scalar_of(spin_before).store(&mut angular_velocity[row]);
             if BEGIN {
                 velocity_now.plus(kick).with_scalar_of(spin_before).store(&mut velocity_predicted[row]);
-                if predicts_spins {
-                    spin_now.plus(turning).with_scalar_of(spin_before).store(&mut spin_predicted[row]);
+                if predicts_angular_velocities {
+                    spin_now
+                        .plus(turning)
+                        .with_scalar_of(spin_before)
+                        .store(&mut angular_velocity_predicted[row]);
                 }
-                let before = R::Row::load(&place[row]);
+                let before = R::Simd4::load(&position[row]);
                 let after = before.plus(velocity_now.times(step)).with_scalar_of(before);
-                after.store(&mut place[row]);
-                let mut drift = Quad::default();
+                after.store(&mut position[row]);
+                let mut drift = Packed4::default();
                 velocity_now.store(&mut drift);
                 let speed = drift.vector.norm_squared();
                 // Not `>`: a NaN must not be passed over.

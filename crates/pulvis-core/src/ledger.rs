@@ -65,7 +65,7 @@ impl Ledger {
     }
 
     /// Everything that the system holds [J].
-    pub fn held(&self) -> f64 {
+    pub fn stored(&self) -> f64 {
         self.kinetic() + self.kinetic_discretisation + self.elastic() + self.adhesive + self.gravity
     }
 
@@ -87,7 +87,7 @@ impl Ledger {
 
     /// Held + lost − done − held at the start: zero for exact integration [J].
     pub fn closing_error(&self) -> f64 {
-        self.held() + self.dissipated() - self.work() - self.initial
+        self.stored() + self.dissipated() - self.work() - self.initial
     }
 
     /// The closing error over the scale [1]; zero where nothing has moved yet.
@@ -202,7 +202,7 @@ mod tests {
             ..Ledger::default()
         };
         let listed: f64 = ledger.accounts().iter().map(|(_, value)| value).sum();
-        assert_eq!(listed, ledger.held());
+        assert_eq!(listed, ledger.stored());
         assert_eq!(listed, 511.0);
     }
 }

@@ -16,7 +16,7 @@ mod particles;
 mod phases;
 mod shared;
 mod simulation;
-mod team;
+mod thread_pool;
 mod time_step;
 pub mod walls;
 

@@ -2,15 +2,15 @@
 
 use std::ops::Index;
 
-use pulvis_math::{Quad, Vector3};
+use pulvis_math::{Packed4, Vector3};
 
-use crate::team::Team;
+use crate::thread_pool::ThreadPool;
 
 /// A particle's name: stable for its whole life, what files and interfaces show. Rows move when the
 /// neighbour search puts them into cell order; ids do not.
 pub type ParticleId = u32;
 
-/// A material's place in the list of materials.
+/// A material's index in the list of materials.
 pub type MaterialIndex = u16;
 
 /// A spherical particle to start with.
@@ -27,12 +27,12 @@ pub struct Particle {
     /// Velocity [m/s].
     pub velocity: Vector3,
     /// Angular velocity [rad/s].
-    pub spin: Vector3,
+    pub angular_velocity: Vector3,
 }
 
 /// All particles. Every column has one entry a row; rows are kept in cell order.
 ///
-/// What the loops read stands in quads, a vector and a number that is needed with it: one load brings
+/// What the loops read stands in packed vectors, a vector and a number that is needed with it: one load brings
 /// both.
 #[derive(Clone, Debug, Default)]
 pub struct Particles {
@@ -41,39 +41,39 @@ pub struct Particles {
     pub(crate) material: Vec<MaterialIndex>,
     pub(crate) radius: Vec<f64>,
     pub(crate) mass: Vec<f64>,
-    // Moving. Between the two kicks of a step, velocity and spin are those of mid-step.
+    // KinematicColumns. Between the two kicks of a step, velocity and angular velocity are those of mid-step.
     /// Centre [m] and radius [m].
-    pub(crate) place: Vec<Quad>,
+    pub(crate) position: Vec<Packed4>,
     /// Velocity [m/s] and 1/mass [1/kg].
-    pub(crate) velocity: Vec<Quad>,
-    /// Spin [rad/s] and 1/radius [1/m].
-    pub(crate) spin: Vec<Quad>,
+    pub(crate) velocity: Vec<Packed4>,
+    /// Angular velocity [rad/s] and 1/radius [1/m].
+    pub(crate) angular_velocity: Vec<Packed4>,
     // Result of the contact loop: force and torque of every row; behind them the parts of sums that
-    // are still to be brought together (see `Piece`). Between the two kicks of a step, what has been
+    // are still to be brought together (see `Chunk`). Between the two kicks of a step, what has been
     // summed up so far.
-    pub(crate) loads: Vec<Load>,
-    // Local to a step: what velocity and spin will be at its end if forces stay as they were.
+    pub(crate) forces_and_torques: Vec<ForceTorque>,
+    // Local to a step: what velocity and angular velocity will be at its end if forces stay as they were.
     /// Velocity [m/s] and 1/radius [1/m].
-    pub(crate) velocity_predicted: Vec<Quad>,
-    /// Spin [rad/s] and 1/radius [1/m].
-    pub(crate) spin_predicted: Vec<Quad>,
+    pub(crate) velocity_predicted: Vec<Packed4>,
+    /// Angular velocity [rad/s] and 1/radius [1/m].
+    pub(crate) angular_velocity_predicted: Vec<Packed4>,
 }
 
 /// Force and torque on a body.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(64))]
-pub(crate) struct Load {
+pub(crate) struct ForceTorque {
     /// Force [N].
-    pub(crate) force: Quad,
+    pub(crate) force: Packed4,
     /// Torque [N m].
-    pub(crate) torque: Quad,
+    pub(crate) torque: Packed4,
 }
 
-impl Load {
+impl ForceTorque {
     /// Force and torque.
     #[inline(always)]
-    pub(crate) fn quads_mut(&mut self) -> &mut [Quad; 2] {
-        // SAFETY: two quads one behind the other, as `repr(C)` lays them out, are an array of two.
+    pub(crate) fn packed_mut(&mut self) -> &mut [Packed4; 2] {
+        // SAFETY: two packed vectors one behind the other, as `repr(C)` lays them out, are an array of two.
         unsafe { &mut *(&raw mut *self).cast() }
     }
 }
@@ -84,17 +84,19 @@ pub struct Vectors<'a>(Column<'a>);
 
 #[derive(Clone, Copy, Debug)]
 enum Column<'a> {
-    Quads(&'a [Quad]),
-    Forces(&'a [Load]),
-    Torques(&'a [Load]),
+    Packed4s(&'a [Packed4]),
+    Forces(&'a [ForceTorque]),
+    Torques(&'a [ForceTorque]),
 }
 
 impl<'a> Vectors<'a> {
     /// Number of rows.
     pub fn len(&self) -> usize {
         match self.0 {
-            Column::Quads(quads) => quads.len(),
-            Column::Forces(loads) | Column::Torques(loads) => loads.len(),
+            Column::Packed4s(packed) => packed.len(),
+            Column::Forces(forces_and_torques) | Column::Torques(forces_and_torques) => {
+                forces_and_torques.len()
+            }
         }
     }
 
@@ -114,9 +116,9 @@ impl Index<usize> for Vectors<'_> {
     #[inline(always)]
     fn index(&self, row: usize) -> &Vector3 {
         match self.0 {
-            Column::Quads(quads) => &quads[row].vector,
-            Column::Forces(loads) => &loads[row].force.vector,
-            Column::Torques(loads) => &loads[row].torque.vector,
+            Column::Packed4s(packed) => &packed[row].vector,
+            Column::Forces(forces_and_torques) => &forces_and_torques[row].force.vector,
+            Column::Torques(forces_and_torques) => &forces_and_torques[row].torque.vector,
         }
     }
 }
@@ -124,18 +126,22 @@ impl Index<usize> for Vectors<'_> {
 impl Particles {
     /// Particles with ids 0, 1, 2, ... in the given order.
     pub fn new(particles: &[Particle]) -> Self {
-        let column = |value: fn(&Particle) -> Quad| particles.iter().map(value).collect::<Vec<_>>();
+        let column = |value: fn(&Particle) -> Packed4| particles.iter().map(value).collect::<Vec<_>>();
         Self {
             id: (0..particles.len() as ParticleId).collect(),
             material: particles.iter().map(|particle| particle.material).collect(),
             radius: particles.iter().map(|particle| particle.radius).collect(),
             mass: particles.iter().map(|particle| particle.mass).collect(),
-            place: column(|particle| Quad::new(particle.position, particle.radius)),
-            velocity: column(|particle| Quad::new(particle.velocity, 1.0 / particle.mass)),
-            spin: column(|particle| Quad::new(particle.spin, 1.0 / particle.radius)),
-            loads: vec![Load::default(); particles.len()],
-            velocity_predicted: column(|particle| Quad::new(particle.velocity, 1.0 / particle.radius)),
-            spin_predicted: column(|particle| Quad::new(particle.spin, 1.0 / particle.radius)),
+            position: column(|particle| Packed4::new(particle.position, particle.radius)),
+            velocity: column(|particle| Packed4::new(particle.velocity, 1.0 / particle.mass)),
+            angular_velocity: column(|particle| {
+                Packed4::new(particle.angular_velocity, 1.0 / particle.radius)
+            }),
+            forces_and_torques: vec![ForceTorque::default(); particles.len()],
+            velocity_predicted: column(|particle| Packed4::new(particle.velocity, 1.0 / particle.radius)),
+            angular_velocity_predicted: column(|particle| {
+                Packed4::new(particle.angular_velocity, 1.0 / particle.radius)
+            }),
         }
     }
 
@@ -171,27 +177,27 @@ impl Particles {
 
     /// Centres [m].
     pub fn positions(&self) -> Vectors<'_> {
-        Vectors(Column::Quads(&self.place))
+        Vectors(Column::Packed4s(&self.position))
     }
 
     /// Velocities [m/s].
     pub fn velocities(&self) -> Vectors<'_> {
-        Vectors(Column::Quads(&self.velocity))
+        Vectors(Column::Packed4s(&self.velocity))
     }
 
     /// Angular velocities [rad/s].
-    pub fn spins(&self) -> Vectors<'_> {
-        Vectors(Column::Quads(&self.spin))
+    pub fn angular_velocities(&self) -> Vectors<'_> {
+        Vectors(Column::Packed4s(&self.angular_velocity))
     }
 
     /// Total forces [N].
     pub fn forces(&self) -> Vectors<'_> {
-        Vectors(Column::Forces(&self.loads[..self.len()]))
+        Vectors(Column::Forces(&self.forces_and_torques[..self.len()]))
     }
 
     /// Total torques [N m].
     pub fn torques(&self) -> Vectors<'_> {
-        Vectors(Column::Torques(&self.loads[..self.len()]))
+        Vectors(Column::Torques(&self.forces_and_torques[..self.len()]))
     }
 
     /// The rows in the order of their ids: what files and interfaces should iterate over.
@@ -209,27 +215,29 @@ impl Particles {
 
     /// Puts the rows into a new order: row k becomes what was row `order[k]`. Loads are not moved: they are
     /// computed anew after every change of order.
-    pub(crate) fn reorder(&mut self, order: &[u32], team: &Team) {
-        team.reorder(&mut self.id, order, &mut Vec::new());
-        team.reorder(&mut self.material, order, &mut Vec::new());
+    pub(crate) fn reorder(&mut self, order: &[u32], pool: &ThreadPool) {
+        pool.reorder(&mut self.id, order, &mut Vec::new());
+        pool.reorder(&mut self.material, order, &mut Vec::new());
         let mut numbers = Vec::new();
-        team.reorder(&mut self.radius, order, &mut numbers);
-        team.reorder(&mut self.mass, order, &mut numbers);
-        let mut quads = Vec::new();
+        pool.reorder(&mut self.radius, order, &mut numbers);
+        pool.reorder(&mut self.mass, order, &mut numbers);
+        let mut packed = Vec::new();
         for column in [
-            &mut self.place,
+            &mut self.position,
             &mut self.velocity,
-            &mut self.spin,
+            &mut self.angular_velocity,
             &mut self.velocity_predicted,
-            &mut self.spin_predicted,
+            &mut self.angular_velocity_predicted,
         ] {
-            team.reorder(column, order, &mut quads);
+            pool.reorder(column, order, &mut packed);
         }
     }
 
-    /// Memory of a particle's row in all columns but the loads [byte].
-    pub(crate) const BYTES: usize =
-        5 * size_of::<Quad>() + 2 * size_of::<f64>() + size_of::<ParticleId>() + size_of::<MaterialIndex>();
+    /// Memory of a particle's row in all columns but the forces and torques [byte].
+    pub(crate) const BYTES: usize = 5 * size_of::<Packed4>()
+        + 2 * size_of::<f64>()
+        + size_of::<ParticleId>()
+        + size_of::<MaterialIndex>();
 
     /// Sum of all momenta [kg m/s].
     pub fn momentum(&self) -> Vector3 {

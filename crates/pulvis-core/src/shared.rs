@@ -31,28 +31,28 @@ impl<'a, T> Shared<'a, T> {
         Self { start: slice.as_mut_ptr(), length: slice.len(), slice: PhantomData }
     }
 
-    /// Has an item brought near; any place will do.
+    /// Has an item brought near; any index will do.
     #[inline(always)]
-    pub(crate) fn prefetch(&self, place: usize) {
-        pulvis_math::prefetch(self.start.wrapping_add(place));
+    pub(crate) fn prefetch(&self, index: usize) {
+        pulvis_math::prefetch(self.start.wrapping_add(index));
     }
 
     /// One item, for reading.
     ///
     /// # Safety
-    /// `place` lies within the slice, and nobody writes the item while the reference lives.
+    /// `index` lies within the slice, and nobody writes the item while the reference lives.
     #[inline(always)]
-    pub(crate) unsafe fn get(&self, place: usize) -> &'a T {
-        debug_assert!(place < self.length);
+    pub(crate) unsafe fn get(&self, index: usize) -> &'a T {
+        debug_assert!(index < self.length);
         // SAFETY: the caller's.
-        unsafe { &*self.start.add(place) }
+        unsafe { &*self.start.add(index) }
     }
 
-    /// One item, by the place of its first number: processors scale an index by the size of a number on
+    /// One item, by the index of its first number: processors scale an index by the size of a number on
     /// the way, but not by that of a larger item.
     ///
     /// # Safety
-    /// `number` is the place of an item within the slice, in numbers, and nobody writes the item while
+    /// `number` is the index of an item within the slice, in numbers, and nobody writes the item while
     /// the reference lives.
     #[inline(always)]
     pub(crate) unsafe fn get_at_number(&self, number: u32) -> &'a T {
@@ -64,15 +64,15 @@ impl<'a, T> Shared<'a, T> {
     /// One item, for writing.
     ///
     /// # Safety
-    /// `place` lies within the slice, and nobody else uses the item while the reference lives.
+    /// `index` lies within the slice, and nobody else uses the item while the reference lives.
     #[inline(always)]
-    pub(crate) unsafe fn get_mut(&self, place: usize) -> &'a mut T {
-        debug_assert!(place < self.length);
+    pub(crate) unsafe fn get_mut(&self, index: usize) -> &'a mut T {
+        debug_assert!(index < self.length);
         // SAFETY: the caller's.
-        unsafe { &mut *self.start.add(place) }
+        unsafe { &mut *self.start.add(index) }
     }
 
-    /// One item, for writing, by the place of its first number as in
+    /// One item, for writing, by the index of its first number as in
     /// [`get_at_number`](Self::get_at_number).
     ///
     /// # Safety

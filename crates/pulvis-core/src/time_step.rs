@@ -85,9 +85,9 @@ mod tests {
     use super::*;
 
     fn sphere(material: MaterialIndex, radius: f64) -> Particle {
-        let (position, velocity, spin) = (Vector3::zero(), Vector3::zero(), Vector3::zero());
+        let (position, velocity, angular_velocity) = (Vector3::zero(), Vector3::zero(), Vector3::zero());
         let mass = 4.0 / 3.0 * std::f64::consts::PI * 2000.0 * radius.powi(3);
-        Particle { material, radius, mass, position, velocity, spin }
+        Particle { material, radius, mass, position, velocity, angular_velocity }
     }
 
     #[test]

@@ -35,7 +35,7 @@ impl Way {
         assert_eq!(simulation.threads(), self.threads);
         simulation.set_instructions(self.instructions);
         if !self.ledger {
-            simulation.give_up_ledger();
+            simulation.disable_ledger();
         }
         let mut left = steps;
         while left > 0 {
@@ -65,7 +65,7 @@ fn state(simulation: &Simulation) -> Bits {
     let columns = [
         ("positions", particles.positions()),
         ("velocities", particles.velocities()),
-        ("spins", particles.spins()),
+        ("spins", particles.angular_velocities()),
         ("forces", particles.forces()),
         ("torques", particles.torques()),
     ];
@@ -153,7 +153,7 @@ fn touching(simulation: &Simulation) -> [usize; 2] {
 #[test]
 fn linear_contacts_that_slide_have_the_same_bits_however_they_are_computed() {
     let mut model = ContactModel::frictionless(Linear::new(1000.0, 1e-2));
-    model.composition.sliding = Some(slider(300.0, 1e-4, 0.5));
+    model.laws.sliding = Some(slider(300.0, 1e-4, 0.5));
     let edge = 22.0 * RADIUS;
     let mut setup = implosion(700, edge, 5, model);
     setup.walls = cube_of_walls(edge);
@@ -172,7 +172,7 @@ fn linear_contacts_that_slide_have_the_same_bits_however_they_are_computed() {
 #[test]
 fn viscous_luding_contacts_that_slide_roll_twist_and_attract_have_the_same_bits_however_they_are_computed() {
     let mut model = viscous_luding();
-    model.composition.noncontact = NonContact::JumpIn(JumpIn { f_a: 3e-5, kc_a: 0.3 });
+    model.laws.noncontact = NonContact::JumpIn(JumpIn { f_a: 3e-5, kc_a: 0.3 });
     let edge = 20.0 * RADIUS;
     let mut setup = implosion(500, edge, 6, model);
     setup.walls = cube_of_walls(edge);
@@ -206,7 +206,7 @@ fn wide_distribution() -> Setup {
         let mut inwards = (middle - place) * (2.0 / edge);
         inwards.x = 0.7;
         let mut particle = sphere(place, inwards + gaussian_vector(&mut random) * 0.2, radius);
-        particle.spin = gaussian_vector(&mut random) * 200.0;
+        particle.angular_velocity = gaussian_vector(&mut random) * 200.0;
         particle
     };
     let particles = places.into_iter().zip(radii).map(falling).collect();
@@ -236,7 +236,7 @@ fn small_and_large_particles_have_the_same_bits_however_they_are_computed() {
 #[test]
 fn another_order_of_sums_would_be_seen_in_the_bits() {
     // The control of this file: with another skin the same contacts stand in other blocks, and nothing
-    // but the order changes in which their loads are summed.
+    // but the order changes in which their forces and torques are summed.
     let setup = wide_distribution();
     let way = Way::plainest();
     let usual = state(&way.advance(&setup, 800));

@@ -48,7 +48,7 @@ fn angular_momentum(simulation: &Simulation) -> (Vector3, f64) {
     for row in 0..particles.len() {
         let (mass, radius) = (particles.masses()[row], particles.radii()[row]);
         let orbit = particles.positions()[row].cross(particles.velocities()[row]) * mass;
-        let own = particles.spins()[row] * (0.4 * mass * radius * radius);
+        let own = particles.angular_velocities()[row] * (0.4 * mass * radius * radius);
         sum += orbit + own;
         scale += orbit.norm() + own.norm();
     }
@@ -70,15 +70,21 @@ fn friction_keeps_momentum_and_angular_momentum_of_an_isolated_cluster_to_round_
     assert!(drift < 1e-12 * momentum_scale(&cluster));
 }
 
-/// Two to six spheres that overlap by some percent, with any velocities and spins.
+/// Two to six spheres that overlap by some percent, with any velocities and angular velocities.
 fn overlapping() -> impl Strategy<Value = Vec<Particle>> {
     let triple = || prop::array::uniform3(-1.0..1.0_f64).prop_map(Vector3::from);
     let particle = (triple(), triple(), triple(), 0.6..1.4_f64);
     prop::collection::vec(particle, 2..7).prop_map(|drawn| {
-        let spaced = |(place, (offset, velocity, spin, size)): (usize, (Vector3, Vector3, Vector3, f64))| {
+        let spaced = |(place, (offset, velocity, angular_velocity, size)): (
+            usize,
+            (Vector3, Vector3, Vector3, f64),
+        )| {
             let site = vector((place % 2) as f64, (place / 2 % 2) as f64, (place / 4) as f64);
             let position = (site * 1.7 + offset * 0.15) * RADIUS;
-            Particle { spin: spin * 200.0, ..sphere(position, velocity * 0.1, size * RADIUS) }
+            Particle {
+                angular_velocity: angular_velocity * 200.0,
+                ..sphere(position, velocity * 0.1, size * RADIUS)
+            }
         };
         drawn.into_iter().enumerate().map(spaced).collect()
     })

@@ -31,7 +31,7 @@ fn closing_errors(powder: &Setup, contact_times: f64) -> Vec<f64> {
 #[test]
 fn the_ledger_closes_at_second_order_with_all_springs_and_a_dashpot_along_the_normal() {
     let mut model = luding();
-    model.composition.viscosity = viscous_luding().composition.viscosity;
+    model.laws.viscosity = viscous_luding().laws.viscosity;
     let errors = closing_errors(&box_of_powder(model), 60.0);
     assert!(errors[0] < 1e-4, "{errors:?}");
     assert!(order(&errors) > 1.7, "observed order {}: {errors:?}", order(&errors));
@@ -47,7 +47,7 @@ fn the_ledger_of_the_whole_model_closes_at_second_order() {
 #[test]
 fn an_attraction_that_jumps_in_closes_the_ledger_at_first_order() {
     let mut model = luding();
-    model.composition.noncontact = NonContact::JumpIn(JumpIn { f_a: 1e-4, kc_a: 50.0 });
+    model.laws.noncontact = NonContact::JumpIn(JumpIn { f_a: 1e-4, kc_a: 50.0 });
     let errors = closing_errors(&box_of_powder(model), 60.0);
     // Touches lie anywhere between two steps, and the force jumps there.
     assert!(errors[0] < 1e-3, "{errors:?}");
@@ -108,7 +108,7 @@ fn contacts_at_the_start_have_lost_what_they_lost_before() {
     let mut pair = start(setup(pair.into(), luding()), 100.0);
     let ledger = pair.ledger();
     assert!(ledger.elastic_normal > 0.0);
-    assert_eq!(ledger.initial, ledger.held());
+    assert_eq!(ledger.initial, ledger.stored());
     assert_eq!(ledger.dissipated(), 0.0);
     assert_eq!(ledger.closing_error(), 0.0);
     assert!(advance_watching(&mut pair, 200, 1) < 1e-3);

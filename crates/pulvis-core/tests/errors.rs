@@ -48,7 +48,7 @@ fn a_period_of_less_than_two_search_radii_is_refused() {
     let thicker = fits.set_skin(0.5 * RADIUS).unwrap_err();
     assert!(matches!(thicker, SetupError::ShortPeriod { axis: 0, .. }), "{thicker}");
     let mut reaching = elastic();
-    reaching.composition.noncontact = NonContact::Reversible(Reversible { f_a: 1e-3, kc_a: 5.0 });
+    reaching.laws.noncontact = NonContact::Reversible(Reversible { f_a: 1e-3, kc_a: 5.0 });
     let mut interactions = Interactions::new(1);
     interactions.set(0, 0, reaching);
     assert!(matches!(fits.set_interactions(interactions), Err(SetupError::ShortPeriod { .. })));

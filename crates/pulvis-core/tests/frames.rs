@@ -44,7 +44,7 @@ fn the_order_of_the_particles_does_not_matter() {
     assert!(difference < ROUND_OFF, "{difference}");
 }
 
-/// Applies a map of vectors and one of axial vectors (spins), then a shift, to a system.
+/// Applies a map of vectors and one of axial vectors (angular velocities), then a shift, to a system.
 fn mapped(
     setup: &Setup,
     polar: impl Fn(Vector3) -> Vector3,
@@ -55,7 +55,7 @@ fn mapped(
     for particle in &mut setup.particles {
         particle.position = polar(particle.position) + shift;
         particle.velocity = polar(particle.velocity);
-        particle.spin = axial(particle.spin);
+        particle.angular_velocity = axial(particle.angular_velocity);
     }
     for wall in &mut setup.walls {
         wall.point = polar(wall.point) + shift;
@@ -74,7 +74,7 @@ fn mapped_states(
     let map = |state: &State| State {
         position: polar(state.position) + shift,
         velocity: polar(state.velocity),
-        spin: axial(state.spin),
+        angular_velocity: axial(state.angular_velocity),
     };
     states.iter().map(map).collect()
 }
@@ -146,10 +146,10 @@ fn a_sphere_falls_freely_along_a_parabola() {
 #[test]
 fn nothing_changes_the_spin_of_a_sphere_without_contact() {
     let mut spinning = sphere(Vector3::zero(), vector(0.1, 0.2, 0.3), RADIUS);
-    spinning.spin = vector(11.0, -7.0, 3.0);
+    spinning.angular_velocity = vector(11.0, -7.0, 3.0);
     let mut simulation = start(setup(vec![spinning], viscous_luding()), 1.0);
     advance(&mut simulation, 1_000);
-    assert_eq!(states(&simulation)[0].spin, spinning.spin);
+    assert_eq!(states(&simulation)[0].angular_velocity, spinning.angular_velocity);
     assert_eq!(states(&simulation)[0].velocity, spinning.velocity);
 }
 
@@ -163,9 +163,9 @@ fn a_sphere_at_rest_on_the_floor_stays_at_rest_to_the_bit() {
     resting.mass = 1.0 / 8192.0;
     let setup = Setup { walls: vec![floor()], background: gravity(8.0), ..setup(vec![resting], model) };
     let mut simulation = start(setup, 50.0);
-    let (before, held) = (states(&simulation), simulation.ledger().held());
+    let (before, held) = (states(&simulation), simulation.ledger().stored());
     advance(&mut simulation, 2_000);
     assert_eq!(states(&simulation), before);
-    assert_eq!(simulation.ledger().held(), held);
+    assert_eq!(simulation.ledger().stored(), held);
     assert_eq!(simulation.wall_force(0), vector(0.0, 0.0, -1.0 / 1024.0));
 }

@@ -45,7 +45,7 @@ fn how_often_candidates_are_listed_does_not_matter() {
 
 #[test]
 fn what_flies_out_of_one_piece_of_rows_is_met_in_another() {
-    // Two pieces below, two above, and a gap between: each piece knows for itself by how much its gaps can
+    // Two chunks below, two above, and a gap between: each chunk knows for itself by how much its gaps can
     // have closed.
     let edge = 24.0 * RADIUS;
     for [up, down] in [[1.5, 0.0], [0.0, 1.5], [0.8, 0.8]] {
@@ -91,7 +91,7 @@ fn skins_by_speed_miss_no_contact_when_a_shock_runs_through_a_packing_and_around
 #[test]
 fn an_aggregate_that_flies_through_periodic_boundaries_stays_the_same() {
     let mut model = viscous_luding();
-    model.composition.noncontact = NonContact::Reversible(Reversible { f_a: 1e-4, kc_a: 20.0 });
+    model.laws.noncontact = NonContact::Reversible(Reversible { f_a: 1e-4, kc_a: 20.0 });
     let mut open = implosion(12, 6.0 * RADIUS, 2, model);
     for particle in &mut open.particles {
         particle.velocity += vector(2.7, 2.1, -1.5);
@@ -122,7 +122,7 @@ const SLOPE: f64 = 50.0;
 
 fn jump_in() -> ContactModel {
     let mut model = elastic();
-    model.composition.noncontact = NonContact::JumpIn(JumpIn { f_a: PULL, kc_a: SLOPE });
+    model.laws.noncontact = NonContact::JumpIn(JumpIn { f_a: PULL, kc_a: SLOPE });
     model
 }
 
@@ -193,13 +193,16 @@ fn a_pair_that_got_out_of_reach_has_forgotten_its_touch() {
 fn a_reversible_tail_is_followed_from_the_end_of_its_reach() {
     let mut model = elastic();
     let (f_a, kc_a) = (1e-4, 2.0);
-    model.composition.noncontact = NonContact::Reversible(Reversible { f_a, kc_a });
-    let reach = f_a / kc_a;
+    model.laws.noncontact = NonContact::Reversible(Reversible { f_a, kc_a });
+    let interaction_range = f_a / kc_a;
     // At rest just within reach, many skins away from touching.
-    let mut pair = start(pair(model, 0.9 * reach, 0.0), 400.0);
-    pair.set_skin(0.02 * reach).unwrap();
+    let mut pair = start(pair(model, 0.9 * interaction_range, 0.0), 400.0);
+    pair.set_skin(0.02 * interaction_range).unwrap();
     let initial = pair.ledger();
-    assert!((initial.adhesive / (-0.5 * f_a * 0.1 * reach * 0.1) - 1.0).abs() < 1e-9, "{initial:?}");
+    assert!(
+        (initial.adhesive / (-0.5 * f_a * 0.1 * interaction_range * 0.1) - 1.0).abs() < 1e-9,
+        "{initial:?}"
+    );
     let worst = advance_watching(&mut pair, 80_000, 1);
     let ledger = pair.ledger();
     assert_eq!(ledger.dissipated(), 0.0);
@@ -212,9 +215,9 @@ fn a_reversible_tail_is_followed_from_the_end_of_its_reach() {
 fn a_wall_remembers_its_contacts_across_periodic_boundaries() {
     // A sphere pressed on a floor slides on its spring through the period and back.
     let mut sphere = sphere(vector(0.2 * RADIUS, 0.0, 0.98 * RADIUS), vector(0.2, 0.0, 0.0), RADIUS);
-    sphere.spin = vector(0.0, 20.0, 5.0);
+    sphere.angular_velocity = vector(0.0, 20.0, 5.0);
     let mut model = luding();
-    model.composition.sliding = Some(slider(1.0, 0.0, 0.5));
+    model.laws.sliding = Some(slider(1.0, 0.0, 0.5));
     let open = Setup { walls: vec![floor()], background: gravity(9.81), ..setup(vec![sphere], model) };
     let domain = Domain::periodic(Vector3::zero(), vector(6.0 * RADIUS, 1.0, 1.0), [true, false, false]);
     let periodic = Setup { domain, ..open.clone() };

@@ -18,7 +18,7 @@ const RATIO: f64 = 10.0;
 /// At a height where both contact normals stand at `slope` to the line of the large centres.
 fn neck(friction: f64, slope: f64) -> Setup {
     let mut model = ContactModel::frictionless(Linear::new(1000.0, 0.0));
-    model.composition.sliding = Some(slider(1000.0 * 2.0 / 7.0, 0.0, friction));
+    model.laws.sliding = Some(slider(1000.0 * 2.0 / 7.0, 0.0, friction));
     let large = RATIO * RADIUS;
     let apart = large + RADIUS;
     let place = vector(apart * slope.cos(), 0.0, -apart * slope.sin());

@@ -151,7 +151,7 @@ fn a_cosine_wall_compresses_a_spring_and_comes_back_having_done_no_work() {
 fn a_floor_that_moves_sideways_drags_a_sphere_until_it_rolls() {
     let (wall_speed, friction, strength) = (0.05, 0.3, 9.81);
     let mut model = ContactModel::frictionless(Linear::new(1000.0, 0.0));
-    model.composition.sliding = Some(slider(200.0, 0.0, friction));
+    model.laws.sliding = Some(slider(200.0, 0.0, friction));
     let mut resting = sphere(Vector3::zero(), Vector3::zero(), RADIUS);
     let overlap = resting.mass * strength / 1000.0;
     resting.position.z = RADIUS - overlap;
@@ -169,8 +169,8 @@ fn a_floor_that_moves_sideways_drags_a_sphere_until_it_rolls() {
     let (state, ledger) = (states(&simulation)[0], simulation.ledger());
     // The lever is a − δ/2, and what is left of the sliding spring lets the sphere swing a little.
     assert!((state.velocity.x / (2.0 * wall_speed / 7.0) - 1.0).abs() < 1e-2, "{state:?}");
-    // A negative spin about y, by 5/2 of the velocity over the radius.
-    assert!((-state.spin.y * RADIUS / (2.5 * state.velocity.x) - 1.0).abs() < 1e-2, "{state:?}");
+    // A negative angular velocity about y, by 5/2 of the velocity over the radius.
+    assert!((-state.angular_velocity.y * RADIUS / (2.5 * state.velocity.x) - 1.0).abs() < 1e-2, "{state:?}");
     // The wall's force μ m g did work over the path of the wall: half of it became heat.
     let work = friction * resting.mass * strength * wall_speed * rolling_from;
     assert!((ledger.work_walls / work - 1.0).abs() < 1e-2, "{} {work}", ledger.work_walls);

@@ -6,7 +6,7 @@ use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::Name;
 use pulvis_contact::catalogue::{InvalidParameter, Law, LawEntry, Role, Values};
-use pulvis_contact::{Composition, ContactModel, Conventions, NonContact, Normal, Viscosity, friction};
+use pulvis_contact::{ContactLaws, ContactModel, Conventions, NonContact, Normal, Viscosity, friction};
 
 /// A law by its name in the catalogue, with its parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub struct NamedLaw {
 
 /// A contact, ready to be computed, and the names and parameters that it was made from.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ContactLaws {
+pub struct NamedContact {
     /// The contact.
     pub model: ContactModel,
     /// Its laws, one of each role, in the order of [`Role::ALL`].
@@ -40,7 +40,7 @@ pub fn read_contact_model(table: TableReader<'_>) -> Result<ContactModel, Report
 ///
 /// # Errors
 /// As of [`read_contact_model`].
-pub fn read_contact(mut table: TableReader<'_>) -> Result<ContactLaws, Reported> {
+pub fn read_contact(mut table: TableReader<'_>) -> Result<NamedContact, Reported> {
     let normal = read_law(&mut table, Role::Normal, Normal::build);
     let noncontact = read_law(&mut table, Role::NonContact, NonContact::build);
     let viscosity = read_law(&mut table, Role::Viscosity, Viscosity::build);
@@ -55,10 +55,10 @@ pub fn read_contact(mut table: TableReader<'_>) -> Result<ContactLaws, Reported>
     let (rolling, rolling_law) = rolling?;
     let (torsion, torsion_law) = torsion?;
     let (conventions, choices) = conventions?;
-    let composition = Composition { noncontact, viscosity, sliding, rolling, torsion, conventions };
-    let laws =
+    let laws = ContactLaws { noncontact, viscosity, sliding, rolling, torsion, conventions };
+    let named =
         vec![normal_law, noncontact_law, viscosity_law, sliding_law, rolling_law, torsion_law, choices];
-    Ok(ContactLaws { model: ContactModel { normal, composition }, laws })
+    Ok(NamedContact { model: ContactModel { normal, laws }, laws: named })
 }
 
 /// The laws of the catalogue that can play a role.

@@ -50,7 +50,7 @@ pub mod unit;
 mod value;
 pub mod value_reader;
 
-pub use contact::{ContactLaws, NamedLaw, read_contact, read_contact_model};
+pub use contact::{NamedContact, NamedLaw, read_contact, read_contact_model};
 pub use context::{Location, Reported};
 pub use document::Document;
 pub use error::{InputError, InputErrors, Place};

@@ -139,9 +139,9 @@ fn stages_switch_laws_and_parameters() {
     assert_eq!((first.k1, first.kp, first.kc), (200.0, 400.0, 0.0));
     let Normal::Luding(second) = grains(1).normal else { panic!("still Luding") };
     assert_eq!((second.k1, second.kp), (200.0, 450.0));
-    assert!(matches!(grains(1).composition.viscosity, Viscosity::Constant(_)));
-    assert_eq!(grains(1).composition.sliding.unwrap().dynamic_coefficient, 0.5);
-    assert!(matches!(grains(2).composition.viscosity, Viscosity::None(_)));
+    assert!(matches!(grains(1).laws.viscosity, Viscosity::Constant(_)));
+    assert_eq!(grains(1).laws.sliding.unwrap().dynamic_coefficient, 0.5);
+    assert!(matches!(grains(2).laws.viscosity, Viscosity::None(_)));
     assert_eq!(grains(3).normal, scenario.contacts[0].model.normal);
     let plate = |stage: usize| match scenario.stages[stage].contacts[1].model.normal {
         Normal::Luding(law) => law.kc,

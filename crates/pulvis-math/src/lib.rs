@@ -1,28 +1,28 @@
 //! Level 0 of the house: scalars, vectors and physical dimensions.
 //!
 //! Nothing here knows physics. The scalar trait [`Real`] lets one text of a force law serve a
-//! single contact (`f64`) and the vectorised contact loop ([`Lanes`]).
+//! single contact (`f64`) and the vectorised contact loop ([`F64Array`]).
 //!
 //! ```
-//! use pulvis_math::{Lanes, Real};
+//! use pulvis_math::{F64Array, Real};
 //!
 //! fn spring<R: Real>(stiffness: f64, overlap: R) -> R {
 //!     R::splat(stiffness) * overlap.max(R::zero())
 //! }
 //! assert_eq!(spring(10.0, 0.5), 5.0);
-//! assert_eq!(spring(10.0, Lanes([0.5, -1.0])), Lanes([5.0, 0.0]));
+//! assert_eq!(spring(10.0, F64Array([0.5, -1.0])), F64Array([5.0, 0.0]));
 //! ```
 
+mod array;
 mod dimension;
-mod lanes;
-mod octet;
 mod prefetch;
 mod real;
+mod simd8;
 mod vector;
 
+pub use array::{ArrayMask, F64Array};
 pub use dimension::Dimension;
-pub use lanes::{LaneMask, Lanes};
-pub use octet::{InstructionSet, Kernel, Octet, Quad, Row, Twin};
 pub use prefetch::prefetch;
 pub use real::{Mask, Real};
+pub use simd8::{InstructionSet, Kernel, Packed4, Simd4, Simd4Pair, Simd8};
 pub use vector::Vector3;

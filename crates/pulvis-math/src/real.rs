@@ -17,7 +17,7 @@ pub trait Mask: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + No
     fn bits(self) -> u32;
 }
 
-/// A scalar in which a force law is written once: `f64` for one contact, [`Lanes`](crate::Lanes)
+/// A scalar in which a force law is written once: `f64` for one contact, [`F64Array`](crate::F64Array)
 /// for eight contacts at a time.
 ///
 /// Laws must be branch-free in values of this type: use [`min`](Real::min), [`max`](Real::max) and
@@ -47,7 +47,7 @@ pub trait Real:
     /// The same number in every lane.
     fn splat(value: f64) -> Self;
     /// One number a lane, from its index.
-    fn from_lanes(number: impl FnMut(usize) -> f64) -> Self;
+    fn from_fn(number: impl FnMut(usize) -> f64) -> Self;
     /// The number in one lane.
     fn lane(self, lane: usize) -> f64;
     /// Square root.
@@ -133,7 +133,7 @@ impl Real for f64 {
         value
     }
     #[inline(always)]
-    fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
+    fn from_fn(mut number: impl FnMut(usize) -> f64) -> Self {
         number(0)
     }
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Two spheres, or a sphere and a fixed plane wall, moved by their contact: a small synchronised
 //! velocity-Verlet method, for motions that have a closed form.
 
-use pulvis_contact::{ContactModel, PairMotion};
+use pulvis_contact::{ContactKinematics, ContactModel};
 use pulvis_math::Vector3;
 
 use crate::live::{AnyContact, Springs, contact};
@@ -18,14 +18,14 @@ pub struct Sphere {
     pub position: Vector3,
     /// Velocity [m/s].
     pub velocity: Vector3,
-    /// Spin [rad/s].
-    pub spin: Vector3,
+    /// Angular velocity [rad/s].
+    pub angular_velocity: Vector3,
 }
 
 impl Sphere {
     /// A sphere at rest.
     pub fn at_rest(mass: f64, radius: f64, position: Vector3) -> Self {
-        Self { mass, radius, position, velocity: Vector3::zero(), spin: Vector3::zero() }
+        Self { mass, radius, position, velocity: Vector3::zero(), angular_velocity: Vector3::zero() }
     }
 
     /// Moment of inertia, 2/5 m a² [kg m^2].
@@ -34,7 +34,8 @@ impl Sphere {
     }
 
     fn kinetic_energy(&self) -> f64 {
-        0.5 * self.mass * self.velocity.norm_squared() + 0.5 * self.inertia() * self.spin.norm_squared()
+        0.5 * self.mass * self.velocity.norm_squared()
+            + 0.5 * self.inertia() * self.angular_velocity.norm_squared()
     }
 }
 
@@ -47,15 +48,19 @@ pub struct Kinematics {
     pub velocity: Vector3,
     /// Velocity at mid-step [m/s].
     pub velocity_mid: Vector3,
-    /// Spin [rad/s].
-    pub spin: Vector3,
-    /// Spin at mid-step [rad/s].
-    pub spin_mid: Vector3,
+    /// Angular velocity [rad/s].
+    pub angular_velocity: Vector3,
+    /// Angular velocity at mid-step [rad/s].
+    pub angular_velocity_mid: Vector3,
 }
 
 /// The motion of a sphere of `radius_i` [m] and of a second one, or the plane wall through the origin with
 /// the normal z.
-pub fn pair_motion(radius_i: f64, i: &Kinematics, second: Option<(f64, &Kinematics)>) -> PairMotion<f64> {
+pub fn pair_motion(
+    radius_i: f64,
+    i: &Kinematics,
+    second: Option<(f64, &Kinematics)>,
+) -> ContactKinematics<f64> {
     let resting = Kinematics::default();
     let (radius_j, j) = second.unwrap_or((0.0, &resting));
     let between = i.position - j.position;
@@ -63,7 +68,7 @@ pub fn pair_motion(radius_i: f64, i: &Kinematics, second: Option<(f64, &Kinemati
         Some(_) => (between * (1.0 / between.norm()), between.norm(), 1.0 / between.norm()),
         None => (Vector3::new(0.0, 0.0, 1.0), between.z, 0.0),
     };
-    PairMotion {
+    ContactKinematics {
         normal,
         overlap: radius_i + radius_j - distance,
         inverse_distance,
@@ -71,10 +76,10 @@ pub fn pair_motion(radius_i: f64, i: &Kinematics, second: Option<(f64, &Kinemati
         radius_j,
         velocity: i.velocity - j.velocity,
         velocity_mid: i.velocity_mid - j.velocity_mid,
-        spin_i: i.spin,
-        spin_j: j.spin,
-        spin_i_mid: i.spin_mid,
-        spin_j_mid: j.spin_mid,
+        angular_velocity_i: i.angular_velocity,
+        angular_velocity_j: j.angular_velocity,
+        angular_velocity_i_mid: i.angular_velocity_mid,
+        angular_velocity_j_mid: j.angular_velocity_mid,
     }
 }
 
@@ -128,21 +133,21 @@ impl Couple {
     /// One step of `dt` [s].
     pub fn step(&mut self, dt: f64) {
         let rates = self.rates;
-        let (mut velocities, mut spins) = ([Vector3::zero(); 2], [Vector3::zero(); 2]);
+        let (mut velocities, mut angular_velocities) = ([Vector3::zero(); 2], [Vector3::zero(); 2]);
         for (body, sphere) in self.spheres().enumerate() {
             sphere.velocity += rates[body].0 * (0.5 * dt);
-            sphere.spin += rates[body].1 * (0.5 * dt);
+            sphere.angular_velocity += rates[body].1 * (0.5 * dt);
             sphere.position += sphere.velocity * dt;
-            (velocities[body], spins[body]) = (sphere.velocity, sphere.spin);
+            (velocities[body], angular_velocities[body]) = (sphere.velocity, sphere.angular_velocity);
             // What dashpots see: the velocity at the end of the step, with the old acceleration.
             sphere.velocity += rates[body].0 * (0.5 * dt);
-            sphere.spin += rates[body].1 * (0.5 * dt);
+            sphere.angular_velocity += rates[body].1 * (0.5 * dt);
         }
-        self.interact(dt, velocities, spins);
+        self.interact(dt, velocities, angular_velocities);
         let rates = self.rates;
         for (body, sphere) in self.spheres().enumerate() {
             sphere.velocity = velocities[body] + rates[body].0 * (0.5 * dt);
-            sphere.spin = spins[body] + rates[body].1 * (0.5 * dt);
+            sphere.angular_velocity = angular_velocities[body] + rates[body].1 * (0.5 * dt);
         }
     }
 
@@ -153,13 +158,13 @@ impl Couple {
         }
     }
 
-    fn interact(&mut self, dt: f64, velocities_mid: [Vector3; 2], spins_mid: [Vector3; 2]) {
+    fn interact(&mut self, dt: f64, velocities_mid: [Vector3; 2], surface_mid: [Vector3; 2]) {
         let kinematics = |sphere: &Sphere, body: usize| Kinematics {
             position: sphere.position,
             velocity: sphere.velocity,
             velocity_mid: velocities_mid[body],
-            spin: sphere.spin,
-            spin_mid: spins_mid[body],
+            angular_velocity: sphere.angular_velocity,
+            angular_velocity_mid: surface_mid[body],
         };
         let first = kinematics(&self.i, 0);
         let second = self.j.map(|sphere| (sphere.radius, kinematics(&sphere, 1)));
@@ -201,8 +206,8 @@ impl Couple {
     /// Velocity of body i at the point of contact relative to body j, along the contact plane, with
     /// uncorrected lever arms [m/s].
     pub fn contact_point_velocity(&self) -> Vector3 {
-        let (j, velocity_j, radius_j, spin_j) = match self.j {
-            Some(j) => (j.position, j.velocity, j.radius, j.spin),
+        let (j, velocity_j, radius_j, angular_velocity_j) = match self.j {
+            Some(j) => (j.position, j.velocity, j.radius, j.angular_velocity),
             None => (
                 Vector3::new(self.i.position.x, self.i.position.y, 0.0),
                 Vector3::zero(),
@@ -213,7 +218,7 @@ impl Couple {
         let between = self.i.position - j;
         let normal = between * (1.0 / between.norm());
         (self.i.velocity - velocity_j).tangential_to(normal)
-            + normal.cross(self.i.spin * self.i.radius + spin_j * radius_j)
+            + normal.cross(self.i.angular_velocity * self.i.radius + angular_velocity_j * radius_j)
     }
 
     /// Steps until `done` says so, at most `limit` steps; returns the number of steps.

@@ -10,8 +10,8 @@ pub fn check_list<L: std::fmt::Debug>(
     build: impl Fn(&str, &Values) -> Option<Result<L, InvalidParameter>>,
 ) {
     for (index, entry) in entries.iter().enumerate() {
-        let twins = entries[..index].iter().filter(|other| other.name == entry.name).count();
-        assert_eq!(twins, 0, "two laws are called {}", entry.name);
+        let row_pairs = entries[..index].iter().filter(|other| other.name == entry.name).count();
+        assert_eq!(row_pairs, 0, "two laws are called {}", entry.name);
         check_texts(entry);
         let (name, values) = example(entry);
         assert_eq!(name, entry.name, "the example names its own law");

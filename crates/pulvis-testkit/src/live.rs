@@ -1,8 +1,8 @@
 //! A contact whose normal law is known at run time only.
 
 use pulvis_contact::{
-    Composition, ContactMemory, ContactModel, ContactResponse, NormalLaw, NormalLawVisitor, Pair, PairMotion,
-    resistance,
+    ContactKinematics, ContactLaws, ContactMemory, ContactModel, ContactResponse, NormalLaw,
+    NormalLawVisitor, Pair, resistance,
 };
 use pulvis_math::Vector3;
 
@@ -22,51 +22,46 @@ pub struct Springs {
 /// A contact with its memory.
 pub trait AnyContact {
     /// Forces, torques and energies after the step of `time_step` [s] that led to `motion`.
-    fn respond(&mut self, motion: &PairMotion<f64>, time_step: f64) -> ContactResponse<f64>;
+    fn respond(&mut self, motion: &ContactKinematics<f64>, time_step: f64) -> ContactResponse<f64>;
     /// The springs.
     fn springs(&self) -> Springs;
 }
 
 /// A virgin contact of `model` between the bodies of `pair`.
 pub fn contact(model: &ContactModel, pair: Pair) -> Box<dyn AnyContact> {
-    model.normal.accept(Boxed { composition: model.composition, pair })
+    model.normal.accept(Boxed { laws: model.laws, pair })
 }
 
 struct Boxed {
-    composition: Composition,
+    laws: ContactLaws,
     pair: Pair,
 }
 
 impl NormalLawVisitor for Boxed {
     type Output = Box<dyn AnyContact>;
     fn visit<N: NormalLaw>(self, law: N) -> Box<dyn AnyContact> {
-        Box::new(Live {
-            law,
-            composition: self.composition,
-            pair: self.pair,
-            memory: ContactMemory::default(),
-        })
+        Box::new(Live { law, laws: self.laws, pair: self.pair, memory: ContactMemory::default() })
     }
 }
 
 struct Live<N: NormalLaw> {
     law: N,
-    composition: Composition,
+    laws: ContactLaws,
     pair: Pair,
     memory: ContactMemory<f64, N::Memory<f64>>,
 }
 
 impl<N: NormalLaw> AnyContact for Live<N> {
-    fn respond(&mut self, motion: &PairMotion<f64>, time_step: f64) -> ContactResponse<f64> {
-        let Self { law, composition, pair, memory } = self;
-        match composition.resistance_level() {
+    fn respond(&mut self, motion: &ContactKinematics<f64>, time_step: f64) -> ContactResponse<f64> {
+        let Self { law, laws, pair, memory } = self;
+        match laws.resistance_level() {
             resistance::NONE => {
-                composition.respond::<f64, N, { resistance::NONE }>(law, pair, motion, time_step, memory)
+                laws.respond::<f64, N, { resistance::NONE }>(law, pair, motion, time_step, memory)
             }
             resistance::SLIDING => {
-                composition.respond::<f64, N, { resistance::SLIDING }>(law, pair, motion, time_step, memory)
+                laws.respond::<f64, N, { resistance::SLIDING }>(law, pair, motion, time_step, memory)
             }
-            _ => composition.respond::<f64, N, { resistance::ALL }>(law, pair, motion, time_step, memory),
+            _ => laws.respond::<f64, N, { resistance::ALL }>(law, pair, motion, time_step, memory),
         }
     }
 

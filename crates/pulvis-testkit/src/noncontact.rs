@@ -1,7 +1,7 @@
 //! What every attraction at a distance promises (see `pulvis_contact::noncontact::NonContactLaw`).
 
 use pulvis_contact::NonContact;
-use pulvis_math::{Lanes, Real};
+use pulvis_math::{F64Array, Real};
 
 use crate::draw::Draw;
 use crate::for_each_case;
@@ -12,8 +12,16 @@ pub fn check_all(count: u64) {
     for entry in NonContact::ENTRIES {
         for_each_case(entry.name, count, |draw| {
             let law = random_law(entry, draw, NonContact::build);
-            assert!(law.reach() >= 0.0 && law.reach().is_finite(), "{law:?}: reach {}", law.reach());
-            let span = if law.reach() > 0.0 { law.reach() } else { draw.log_between(1e-8, 1e-4) };
+            assert!(
+                law.interaction_range() >= 0.0 && law.interaction_range().is_finite(),
+                "{law:?}: reach {}",
+                law.interaction_range()
+            );
+            let span = if law.interaction_range() > 0.0 {
+                law.interaction_range()
+            } else {
+                draw.log_between(1e-8, 1e-4)
+            };
             the_force_is_the_slope_of_the_potential(&law, span);
             beyond_its_reach_nothing_acts(&law, span, draw);
             a_cycle_costs_what_is_booked(&law, span, draw);
@@ -40,10 +48,13 @@ fn the_force_is_the_slope_of_the_potential(law: &NonContact, span: f64) {
             }
             let slope = (after.0.potential - before.0.potential) / (2.0 * step);
             // Central differences of parabolas are exact; potentials carry round-off 1e-16 V/step.
-            let tolerance = 1e-9 * (law.stiffest() * span + here.0.force.abs());
+            let tolerance = 1e-9 * (law.max_stiffness() * span + here.0.force.abs());
             assert!((here.0.force - slope).abs() <= tolerance, "{law:?}: {} and {slope} N", here.0.force);
             let rise = (after.0.force - before.0.force).abs();
-            assert!(rise <= 2.0 * step * law.stiffest() * (1.0 + 1e-9) + tolerance, "{law:?}: too steep");
+            assert!(
+                rise <= 2.0 * step * law.max_stiffness() * (1.0 + 1e-9) + tolerance,
+                "{law:?}: too steep"
+            );
         }
     }
 }
@@ -51,7 +62,7 @@ fn the_force_is_the_slope_of_the_potential(law: &NonContact, span: f64) {
 fn beyond_its_reach_nothing_acts(law: &NonContact, span: f64, draw: &mut Draw) {
     for touched in [0.0, 1.0] {
         let mut memory = touched;
-        let distance = law.reach() + 1e-9 * span + span * draw.unit();
+        let distance = law.interaction_range() + 1e-9 * span + span * draw.unit();
         let answer = law.respond(-distance, &mut memory);
         assert_eq!((answer.force, answer.potential), (0.0, 0.0), "{law:?} at {distance} m");
         assert_eq!(answer.dissipated, 0.0, "{law:?}: an attraction that ends must not cost at its end");
@@ -102,13 +113,13 @@ fn only_memory_makes_a_difference_between_approach_and_separation(
 }
 
 fn lanes_give_the_bits_of_the_plain_number(law: &NonContact, span: f64, draw: &mut Draw) {
-    type Eight = Lanes<8>;
+    type Eight = F64Array<8>;
     let mut plain = [0.0; 8];
     let mut touched = Eight::zero();
     for _ in 0..40 {
         let overlaps: [f64; 8] =
             std::array::from_fn(|_| if draw.chance(0.1) { 0.0 } else { span * draw.between(-1.3, 1.0) });
-        let answer = law.respond(Lanes(overlaps), &mut touched);
+        let answer = law.respond(F64Array(overlaps), &mut touched);
         for lane in 0..8 {
             let one = law.respond(overlaps[lane], &mut plain[lane]);
             let of_lane = [answer.force, answer.potential, answer.dissipated, touched];

@@ -1,7 +1,7 @@
 //! What every dashpot promises (see `pulvis_contact::viscosity::ViscousLaw`).
 
 use pulvis_contact::{Normal, NormalLaw, NormalLawVisitor, NormalResponse, Pair, Viscosity};
-use pulvis_math::{Lanes, Real};
+use pulvis_math::{F64Array, Real};
 
 use crate::draw::Draw;
 use crate::for_each_case;
@@ -45,8 +45,8 @@ impl NormalLawVisitor for Suite<'_> {
             assert!(coefficient <= largest * (1.0 + 1e-12), "{law:?}: {coefficient} kg/s, bound {largest}");
         }
         let together = law.coefficient(
-            &Pair::from_lanes(|lane| pairs[lane]),
-            Lanes(overlaps),
+            &Pair::from_fn(|lane| pairs[lane]),
+            F64Array(overlaps),
             &NormalResponse {
                 force: lanes(|lane| answers[lane].force),
                 friction_reference: lanes(|lane| answers[lane].friction_reference),
@@ -64,6 +64,6 @@ impl NormalLawVisitor for Suite<'_> {
     }
 }
 
-fn lanes(number: impl FnMut(usize) -> f64) -> Lanes<8> {
-    Lanes::from_lanes(number)
+fn lanes(number: impl FnMut(usize) -> f64) -> F64Array<8> {
+    F64Array::from_fn(number)
 }

@@ -44,7 +44,7 @@ pub enum SpringRotation {
     Rescale,
     /// Projected into the tangent plane only (LIGGGHTS).
     Project,
-    /// Turned with the line of centres, and about it with the mean spin of the bodies (YADE): the
+    /// Turned with the line of centres, and about it with the mean angular velocity of the bodies (YADE): the
     /// spring of a stuck pair that turns as one body turns with it, to second order in the step.
     Twist,
     /// Only the part along the line of centres that the present step brings is removed (MercuryDPM).

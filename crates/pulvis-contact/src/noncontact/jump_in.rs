@@ -51,10 +51,10 @@ impl NonContactLaw for JumpIn {
         let before = touched.gt(half);
         let touches = overlap.ge(R::zero());
         // Zero reach: at δ = 0 nothing is left to remember.
-        let within_reach = overlap.gt(R::splat(-self.reach()));
+        let within_reach = overlap.gt(R::splat(-self.interaction_range()));
         let now = (before | touches) & within_reach;
         *touched = R::one().keep_where(now);
-        let sudden = R::splat(0.5 * self.f_a * self.reach());
+        let sudden = R::splat(0.5 * self.f_a * self.interaction_range());
         NonContactResponse {
             force: force.keep_where(now),
             potential: potential.keep_where(now),
@@ -62,11 +62,11 @@ impl NonContactLaw for JumpIn {
         }
     }
 
-    fn reach(&self) -> f64 {
+    fn interaction_range(&self) -> f64 {
         self.f_a / self.kc_a
     }
 
-    fn stiffest(&self) -> f64 {
+    fn max_stiffness(&self) -> f64 {
         if self.kc_a.is_finite() { self.kc_a } else { 0.0 }
     }
 
@@ -76,7 +76,7 @@ impl NonContactLaw for JumpIn {
 
     fn branch(&self, overlap: f64, touched: f64) -> (u8, &'static str) {
         // With zero reach nothing acts at δ = 0 either.
-        if overlap <= -self.reach() {
+        if overlap <= -self.interaction_range() {
             (0, "free")
         } else if overlap >= 0.0 {
             (2, "in contact")

@@ -30,10 +30,10 @@ pub trait NonContactLaw: Law {
     fn respond<R: Real>(&self, overlap: R, touched: &mut R) -> NonContactResponse<R>;
 
     /// The largest distance −δ at which the law acts [m].
-    fn reach(&self) -> f64;
+    fn interaction_range(&self) -> f64;
 
     /// The steepest slope |df/dδ| [N/m], zero for a force that only jumps.
-    fn stiffest(&self) -> f64;
+    fn max_stiffness(&self) -> f64;
 
     /// Whether the force depends on `touched`, so that a contact must remember it.
     fn remembers_touch(&self) -> bool;
@@ -73,13 +73,13 @@ macro_rules! noncontact_laws {
             }
 
             /// See [`NonContactLaw::reach`].
-            pub fn reach(&self) -> f64 {
-                match self { $(Self::$law(law) => law.reach(),)* }
+            pub fn interaction_range(&self) -> f64 {
+                match self { $(Self::$law(law) => law.interaction_range(),)* }
             }
 
-            /// See [`NonContactLaw::stiffest`].
-            pub fn stiffest(&self) -> f64 {
-                match self { $(Self::$law(law) => law.stiffest(),)* }
+            /// See [`NonContactLaw::max_stiffness`].
+            pub fn max_stiffness(&self) -> f64 {
+                match self { $(Self::$law(law) => law.max_stiffness(),)* }
             }
 
             /// See [`NonContactLaw::remembers_touch`].

@@ -33,11 +33,11 @@ impl NonContactLaw for None {
         NonContactResponse::default()
     }
 
-    fn reach(&self) -> f64 {
+    fn interaction_range(&self) -> f64 {
         0.0
     }
 
-    fn stiffest(&self) -> f64 {
+    fn max_stiffness(&self) -> f64 {
         0.0
     }
 

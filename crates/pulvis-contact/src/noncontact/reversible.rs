@@ -65,11 +65,11 @@ impl NonContactLaw for Reversible {
         NonContactResponse { force, potential, dissipated: R::zero() }
     }
 
-    fn reach(&self) -> f64 {
+    fn interaction_range(&self) -> f64 {
         self.f_a / self.kc_a
     }
 
-    fn stiffest(&self) -> f64 {
+    fn max_stiffness(&self) -> f64 {
         if self.kc_a.is_finite() { self.kc_a } else { 0.0 }
     }
 
@@ -80,7 +80,7 @@ impl NonContactLaw for Reversible {
     fn branch(&self, overlap: f64, _touched: f64) -> (u8, &'static str) {
         if overlap > 0.0 {
             (2, "in contact")
-        } else if overlap > -self.reach() {
+        } else if overlap > -self.interaction_range() {
             (1, "attraction")
         } else {
             (0, "out of reach")
@@ -108,7 +108,7 @@ mod tests {
     fn the_force_is_continuous_at_touch_and_at_the_end_of_its_reach() {
         let law = Reversible { f_a: 1e-4, kc_a: 50.0 };
         let force = |overlap: f64| law.respond(overlap, &mut 0.0).force;
-        assert_eq!(force(-law.reach()), 0.0);
+        assert_eq!(force(-law.interaction_range()), 0.0);
         assert_eq!(force(0.0), -1e-4);
         assert_eq!(force(1e-9), -1e-4);
     }

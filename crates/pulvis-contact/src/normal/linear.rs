@@ -160,7 +160,7 @@ impl NormalLaw for Linear {
             force,
             friction_reference: force,
             hardening: R::one(),
-            inverse_overlap_scale: pair.mean_curvature(),
+            inverse_overlap_scale: pair.inverse_harmonic_radius(),
             stored_energy: R::splat(0.5) * force * overlap,
             dissipated_plastic: R::zero(),
             dissipated_adhesive: R::zero(),
@@ -184,7 +184,7 @@ impl NormalLaw for Linear {
         if overlap <= 0.0 { (0, "open") } else { (1, "spring") }
     }
 
-    fn stiffest(&self, pair: &Pair<f64>) -> f64 {
+    fn max_stiffness(&self, pair: &Pair<f64>) -> f64 {
         self.stiffness(pair)
     }
 }

@@ -178,7 +178,7 @@ impl Luding {
     fn inverse_plastic_limit<R: Real>(&self, pair: &Pair<R>) -> R {
         match self.interpolation {
             Interpolation::Constant => R::zero(),
-            _ => R::splat((self.kp - self.k1) / (self.kp * self.phi_f)) * pair.mean_curvature(),
+            _ => R::splat((self.kp - self.k1) / (self.kp * self.phi_f)) * pair.inverse_harmonic_radius(),
         }
     }
 
@@ -292,7 +292,7 @@ impl NormalLaw for Luding {
             inverse_overlap_scale: if self.has_plastic_limit() {
                 inverse_limit
             } else {
-                pair.mean_curvature()
+                pair.inverse_harmonic_radius()
             },
             stored_energy: R::splat(0.5) * force * force / k2,
             dissipated_plastic: plastic,
@@ -321,7 +321,7 @@ impl NormalLaw for Luding {
         }
     }
 
-    fn stiffest(&self, _pair: &Pair<f64>) -> f64 {
+    fn max_stiffness(&self, _pair: &Pair<f64>) -> f64 {
         self.kp.max(self.kc)
     }
 }

@@ -77,7 +77,7 @@ pub trait NormalLaw: Law {
     fn branch(&self, pair: &Pair<f64>, overlap: f64, memory: &Self::Memory<f64>) -> (u8, &'static str);
 
     /// The steepest slope |df/dδ| of any branch [N/m].
-    fn stiffest(&self, pair: &Pair<f64>) -> f64;
+    fn max_stiffness(&self, pair: &Pair<f64>) -> f64;
 }
 
 /// Something to be done with a law whose type is only known at run time.

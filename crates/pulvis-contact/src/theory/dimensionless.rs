@@ -49,9 +49,9 @@ pub fn scaled_overlap(alpha: f64, psi: f64) -> f64 {
 /// `[(1 + beta - beta x)/(1 + beta + x)] psi^2 X^2 - 2 alpha psi X` with `x = eta X`.
 #[must_use]
 pub fn restitution_squared_plastic_adhesive(eta: f64, beta: f64, alpha: f64, psi: f64) -> f64 {
-    let reach = scaled_overlap(alpha, psi);
-    let scaled = psi * reach;
-    restitution_squared_plastic(eta, beta, reach) * scaled * scaled - 2.0 * alpha * scaled
+    let interaction_range = scaled_overlap(alpha, psi);
+    let scaled = psi * interaction_range;
+    restitution_squared_plastic(eta, beta, interaction_range) * scaled * scaled - 2.0 * alpha * scaled
 }
 
 /// Signed `[e_n^(2)]^2` with `f_a`, for `X >= 1`: S1 (31), which does not contain `f_a` [-].

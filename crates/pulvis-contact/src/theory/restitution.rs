@@ -83,11 +83,11 @@ impl LudingPair {
     pub(super) fn balance(&self, touch_velocity: f64) -> Balance {
         let p = &self.p;
         let f_a = p.adhesion_force;
-        let reach = self.loading_overlap(touch_velocity);
-        let history = reach.min(self.dp());
+        let interaction_range = self.loading_overlap(touch_velocity);
+        let history = interaction_range.min(self.dp());
         let k2 = self.k2(history);
         // E_i - E(D) = (reach - D) times the mean force in between: no difference of two large energies.
-        let at_limit = (reach - history) * (0.5 * p.k1 * (reach + history) - f_a);
+        let at_limit = (interaction_range - history) * (0.5 * p.k1 * (interaction_range + history) - f_a);
         let touch = 0.5 * p.reduced_mass * touch_velocity * touch_velocity;
         let share = self.loop_share(self.stiffness_excess(history));
         // (1/2) k1 D^2 = E_i + f_a D below the limit: the loop is then an exact share of E_i.

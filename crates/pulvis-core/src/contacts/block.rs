@@ -3,53 +3,53 @@
 use std::borrow::Cow;
 
 use pulvis_contact::{ContactEnergies, ContactModel};
-use pulvis_math::{Lanes, Mask, Octet, Vector3};
+use pulvis_math::{F64Array, Mask, Simd8, Vector3};
 
-use super::layout::{Lane, Layout};
+use super::layout::{F64x8, Layout};
 
 /// Contacts in a block.
 pub(crate) const WIDTH: usize = 8;
 
-/// Numbers in a quad, and in a load. Rows are kept as the places of their numbers: processors multiply an
-/// index by the size of a number on the way, but not by that of a quad.
-pub(crate) const QUAD: u32 = 4;
-pub(crate) const LOAD: u32 = 8;
+/// Numbers in a packed vector, and in a load. Rows are kept as the slots of their numbers: processors multiply an
+/// index by the size of a number on the way, but not by that of a packed vector.
+pub(crate) const PACKED4_NUMBERS: u32 = 4;
+pub(crate) const FORCE_TORQUE_NUMBERS: u32 = 8;
 
 /// What the first body of a group's contacts may meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Partner {
     /// Other particles.
     Particle,
-    /// Walls. All contacts of a block are with the same one, whose place in the list of walls stands for the
+    /// Walls. All contacts of a block are with the same one, whose index in the list of walls stands for the
     /// rows of the second bodies.
     Wall,
 }
 
-/// Places for the first and for the second bodies of eight contacts; an incomplete block repeats its first
+/// Indices for the first and for the second bodies of eight contacts; an incomplete block repeats its first
 /// contact.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub(crate) struct Places(pub(crate) [[u32; WIDTH]; 2]);
+pub(crate) struct LaneIndices(pub(crate) [[u32; WIDTH]; 2]);
 
-/// Candidate contacts of one piece that one model rules: particle pairs of two materials, or particles
+/// Candidate contacts of one chunk that one model rules: particle pairs of two materials, or particles
 /// of one material near one wall.
 #[derive(Clone, Debug)]
 pub(crate) struct ContactGroup {
     pub(crate) model: ContactModel,
     pub(crate) layout: Layout,
     pub(crate) partner: Partner,
-    /// Rows of the bodies of each block, times [`QUAD`].
-    pub(crate) rows: Vec<Places>,
-    /// Where their loads are summed: places among those of the piece, times [`LOAD`]; those of walls mean
+    /// Rows of the bodies of each block, times [`PACKED4_NUMBERS`].
+    pub(crate) rows: Vec<LaneIndices>,
+    /// Where their forces and torques are summed: slots among those of the chunk, times [`FORCE_TORQUE_NUMBERS`]; those of walls mean
     /// nothing. Apart from the rows: blocks that are looked at and found not to act need none.
-    pub(crate) sums: Vec<Places>,
+    pub(crate) sums: Vec<LaneIndices>,
     /// How many contacts each block holds: eight, but in the last one and where another wall follows.
-    pub(crate) filled: Vec<u8>,
+    pub(crate) occupancy: Vec<u8>,
     /// Memory: for each block, one value of eight lanes a column.
-    pub(crate) memory: Vec<Lane>,
+    pub(crate) memory: Vec<F64x8>,
     /// Whether any contact of the block acted when it was last looked at. Blocks that did not, and
     /// do not, are passed over.
-    pub(crate) live: Vec<bool>,
+    pub(crate) active: Vec<bool>,
     /// The smallest gap that any contact of the block had to its reach when it was listed [m]: until
     /// bodies have moved that far, the block needs no look.
     pub(crate) gap: Vec<f64>,
@@ -57,9 +57,9 @@ pub(crate) struct ContactGroup {
     pub(crate) batches: usize,
     /// Whether the nearest images of any two bodies of the block were across a periodic boundary when it was listed:
     /// until the next list they stay, or stay away, there.
-    pub(crate) across: Vec<bool>,
+    pub(crate) crosses_boundary: Vec<bool>,
     /// What the last sweep added up to, lane by lane.
-    pub(crate) energies: ContactEnergies<Lane>,
+    pub(crate) energies: ContactEnergies<F64x8>,
     /// The forces of the last sweep on the first bodies [N], wall by wall; empty for particles.
     pub(crate) wall_forces: Vec<Vector3>,
 }
@@ -67,14 +67,14 @@ pub(crate) struct ContactGroup {
 /// A candidate contact as it is listed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate {
-    /// Rows of the bodies; of a wall its place.
+    /// Rows of the bodies; of a wall its index.
     pub(crate) rows: [u32; 2],
-    /// Where their loads are summed.
+    /// Where their forces and torques are summed.
     pub(crate) sums: [u32; 2],
     /// Gap to the reach [m].
     pub(crate) gap: f64,
     /// Whether the nearest image is across a periodic boundary.
-    pub(crate) across: bool,
+    pub(crate) crosses_boundary: bool,
 }
 
 impl ContactGroup {
@@ -89,10 +89,10 @@ impl ContactGroup {
                 partner,
                 rows: Vec::new(),
                 sums: Vec::new(),
-                filled: Vec::new(),
+                occupancy: Vec::new(),
                 memory: Vec::new(),
-                live: Vec::new(),
-                across: Vec::new(),
+                active: Vec::new(),
+                crosses_boundary: Vec::new(),
                 gap: Vec::new(),
                 batches: 0,
                 energies,
@@ -101,10 +101,10 @@ impl ContactGroup {
         };
         group.rows.clear();
         group.sums.clear();
-        group.filled.clear();
+        group.occupancy.clear();
         group.memory.clear();
-        group.live.clear();
-        group.across.clear();
+        group.active.clear();
+        group.crosses_boundary.clear();
         group.gap.clear();
         group.wall_forces.clear();
         Self { model, layout, partner, energies, ..group }
@@ -112,7 +112,7 @@ impl ContactGroup {
 
     /// Number of candidate contacts.
     pub(crate) fn len(&self) -> usize {
-        self.filled.iter().map(|&filled| usize::from(filled)).sum()
+        self.occupancy.iter().map(|&occupancy| usize::from(occupancy)).sum()
     }
 
     /// Memory of the candidates and of what they remember [byte].
@@ -121,9 +121,9 @@ impl ContactGroup {
             + size_of_val(&self.sums[..])
             + size_of_val(&self.memory[..])
             + size_of_val(&self.gap[..])
-            + self.live.len()
-            + self.across.len()
-            + self.filled.len()
+            + self.active.len()
+            + self.crosses_boundary.len()
+            + self.occupancy.len()
     }
 
     /// Makes room for more contacts.
@@ -131,10 +131,10 @@ impl ContactGroup {
         let blocks = contacts.div_ceil(WIDTH);
         self.rows.reserve(blocks);
         self.sums.reserve(blocks);
-        self.filled.reserve(blocks);
+        self.occupancy.reserve(blocks);
         self.memory.reserve(blocks * self.layout.columns());
-        self.live.reserve(blocks);
-        self.across.reserve(blocks);
+        self.active.reserve(blocks);
+        self.crosses_boundary.reserve(blocks);
         self.gap.reserve(blocks);
     }
 
@@ -146,67 +146,67 @@ impl ContactGroup {
         memory: impl Fn(&Self, usize) -> Option<Cow<'a, [f64]>>,
     ) {
         let Some(first) = candidates.first() else { return };
-        let mut rows = Places(first.rows.map(|row| [row * QUAD; WIDTH]));
-        let mut sums = Places(first.sums.map(|place| [place * LOAD; WIDTH]));
+        let mut rows = LaneIndices(first.rows.map(|row| [row * PACKED4_NUMBERS; WIDTH]));
+        let mut sums = LaneIndices(first.sums.map(|index| [index * FORCE_TORQUE_NUMBERS; WIDTH]));
         let mut gap = f64::INFINITY;
         for (lane, candidate) in candidates.iter().take(WIDTH).enumerate() {
             for body in 0..2 {
-                rows.0[body][lane] = candidate.rows[body] * QUAD;
-                sums.0[body][lane] = candidate.sums[body] * LOAD;
+                rows.0[body][lane] = candidate.rows[body] * PACKED4_NUMBERS;
+                sums.0[body][lane] = candidate.sums[body] * FORCE_TORQUE_NUMBERS;
             }
             gap = gap.min(candidate.gap);
         }
         let start = self.memory.len();
-        self.memory.resize(start + self.layout.columns(), Lane::default());
-        let mut live = false;
+        self.memory.resize(start + self.layout.columns(), F64x8::default());
+        let mut active = false;
         for lane in 0..candidates.len() {
             if let Some(record) = memory(self, lane) {
                 for (column, &value) in self.memory[start..].iter_mut().zip(&*record) {
                     column.0[lane] = value;
                 }
-                live = true;
+                active = true;
             }
         }
         self.rows.push(rows);
         self.sums.push(sums);
-        self.filled.push(candidates.len() as u8);
-        self.live.push(live);
-        self.across.push(candidates.iter().any(|candidate| candidate.across));
+        self.occupancy.push(candidates.len() as u8);
+        self.active.push(active);
+        self.crosses_boundary.push(candidates.iter().any(|candidate| candidate.crosses_boundary));
         self.gap.push(gap);
     }
 
     /// Row of the first body of a contact.
     pub(crate) fn first_row(&self, block: usize, lane: usize) -> u32 {
-        self.rows[block].0[0][lane] / QUAD
+        self.rows[block].0[0][lane] / PACKED4_NUMBERS
     }
 
-    /// Row of the second body of a contact between particles; the place of a wall.
+    /// Row of the second body of a contact between particles; the index of a wall.
     pub(crate) fn second_row(&self, block: usize, lane: usize) -> u32 {
-        self.rows[block].0[1][lane] / QUAD
+        self.rows[block].0[1][lane] / PACKED4_NUMBERS
     }
 
     /// The columns of memory of a block.
-    pub(crate) fn columns(&self, block: usize) -> &[Lane] {
+    pub(crate) fn columns(&self, block: usize) -> &[F64x8] {
         let columns = self.layout.columns();
         &self.memory[block * columns..(block + 1) * columns]
     }
 
     /// How many contacts the block holds.
     #[inline(always)]
-    pub(crate) fn filled(&self, block: usize) -> usize {
-        usize::from(self.filled[block])
+    pub(crate) fn occupancy(&self, block: usize) -> usize {
+        usize::from(self.occupancy[block])
     }
 
     /// Writes down what the contacts remember that remember anything, behind what stands in `records`. Calls
-    /// `action` with block and lane of each, and the place where its record begins.
+    /// `action` with block and lane of each, and the index where its record begins.
     pub(crate) fn for_each_memory(
         &self,
         records: &mut Vec<f64>,
         mut action: impl FnMut(usize, usize, usize),
     ) {
-        for block in (0..self.rows.len()).filter(|&block| self.live[block]) {
+        for block in (0..self.rows.len()).filter(|&block| self.active[block]) {
             let memory = self.columns(block);
-            for lane in 0..self.filled(block) {
+            for lane in 0..self.occupancy(block) {
                 if memory.iter().any(|column| column.0[lane] != 0.0) {
                     action(block, lane, records.len());
                     records.extend(memory.iter().map(|column| column.0[lane]));
@@ -216,12 +216,12 @@ impl ContactGroup {
     }
 }
 
-/// True in the first `filled` lanes.
+/// True in the first `occupancy` lanes.
 #[inline(always)]
-pub(crate) fn filled_lanes<R: Octet>(filled: u8) -> R::Mask {
-    if usize::from(filled) == WIDTH {
+pub(crate) fn occupied_lanes<R: Simd8>(occupancy: u8) -> R::Mask {
+    if usize::from(occupancy) == WIDTH {
         return Mask::splat(true);
     }
-    const NUMBERS: Lane = Lanes([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
-    R::load(&NUMBERS).lt(R::splat(f64::from(filled)))
+    const NUMBERS: F64x8 = F64Array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+    R::load(&NUMBERS).lt(R::splat(f64::from(occupancy)))
 }

@@ -22,18 +22,18 @@ impl Interactions {
         let needed = usize::from(one.max(other)) + 1;
         if needed > self.materials {
             let mut grown = Self::new(needed);
-            for (place, known) in self.models.iter().enumerate() {
-                grown.models[place / self.materials * needed + place % self.materials] = *known;
+            for (index, known) in self.models.iter().enumerate() {
+                grown.models[index / self.materials * needed + index % self.materials] = *known;
             }
             *self = grown;
         }
-        let place = self.group(one, other);
-        self.models[place] = Some(model);
+        let index = self.group(one, other);
+        self.models[index] = Some(model);
     }
 
     /// The model of a pair of materials, if there is one.
     pub fn get(&self, one: MaterialIndex, other: MaterialIndex) -> Option<&ContactModel> {
-        // Beyond the table, the place would be that of another pair.
+        // Beyond the table, the index would be that of another pair.
         let listed = usize::from(one.max(other)) < self.materials;
         if listed { self.models[self.group(one, other)].as_ref() } else { None }
     }
@@ -61,8 +61,8 @@ impl Interactions {
     }
 
     /// The largest reach of all models [m].
-    pub fn reach(&self) -> f64 {
-        self.models.iter().flatten().map(ContactModel::reach).fold(0.0, f64::max)
+    pub fn interaction_range(&self) -> f64 {
+        self.models.iter().flatten().map(ContactModel::interaction_range).fold(0.0, f64::max)
     }
 }
 

@@ -1,12 +1,12 @@
 //! Where the parts of a contact's memory stand among its columns.
 
 use pulvis_contact::{ContactMemory, ContactModel, Memory, NormalLaw, NormalLawVisitor, resistance};
-use pulvis_math::{Lanes, Octet, Vector3};
+use pulvis_math::{F64Array, Simd8, Vector3};
 
 /// Eight contacts at a time.
-pub(crate) type Lane = Lanes<8>;
+pub(crate) type F64x8 = F64Array<8>;
 
-/// The columns of a group's contact memory: the normal law's, then those that the composition needs. A
+/// The columns of a group's contact memory: the normal law's, then those that the laws needs. A
 /// sliding spring, which most contacts have, stands where the type of the normal law says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Layout {
@@ -32,17 +32,17 @@ impl Layout {
     pub(crate) fn of(model: &ContactModel) -> Self {
         let normal_columns = model.normal.accept(NormalColumns);
         let mut columns = normal_columns;
-        let mut place = |needed: bool, width: usize| {
+        let mut index = |needed: bool, width: usize| {
             needed.then(|| {
                 columns += width;
                 columns - width
             })
         };
-        let laws = &model.composition;
-        let sliding = place(laws.sliding.is_some(), 3);
-        let rolling = place(laws.rolling.is_some(), 3);
-        let torsion = place(laws.torsion.is_some(), 1);
-        let touched = place(laws.noncontact.remembers_touch(), 1);
+        let laws = &model.laws;
+        let sliding = index(laws.sliding.is_some(), 3);
+        let rolling = index(laws.rolling.is_some(), 3);
+        let torsion = index(laws.torsion.is_some(), 1);
+        let touched = index(laws.noncontact.remembers_touch(), 1);
         Self { touched, sliding, rolling, torsion, normal_columns, columns }
     }
 
@@ -53,10 +53,10 @@ impl Layout {
     }
 
     /// The memory of one lane of a block.
-    pub(crate) fn load_one<M: Memory<f64>>(&self, columns: &[Lane], lane: usize) -> ContactMemory<f64, M> {
-        let number = |place: Option<usize>| place.map_or(0.0, |place| columns[place].0[lane]);
-        let vector = |place: Option<usize>| {
-            let along = |axis: usize| number(place.map(|place| place + axis));
+    pub(crate) fn load_one<M: Memory<f64>>(&self, columns: &[F64x8], lane: usize) -> ContactMemory<f64, M> {
+        let number = |index: Option<usize>| index.map_or(0.0, |index| columns[index].0[lane]);
+        let vector = |index: Option<usize>| {
+            let along = |axis: usize| number(index.map(|index| index + axis));
             Vector3::new(along(0), along(1), along(2))
         };
         ContactMemory {
@@ -80,9 +80,9 @@ impl Layout {
 
     /// The memory of a block of contacts of a level of resistance, read from its columns.
     #[inline(always)]
-    pub(crate) fn load<R: Octet, M: Memory<R>, const RESISTANCE: u8>(
+    pub(crate) fn load<R: Simd8, M: Memory<R>, const RESISTANCE: u8>(
         &self,
-        columns: &[Lane],
+        columns: &[F64x8],
     ) -> ContactMemory<R, M> {
         debug_assert!(columns.len() == self.columns && self.normal_columns == M::COLUMNS);
         let mut memory = ContactMemory {
@@ -101,10 +101,10 @@ impl Layout {
 
     /// The memory of a block, written into its columns.
     #[inline(always)]
-    pub(crate) fn store<R: Octet, M: Memory<R>, const RESISTANCE: u8>(
+    pub(crate) fn store<R: Simd8, M: Memory<R>, const RESISTANCE: u8>(
         &self,
         memory: &ContactMemory<R, M>,
-        columns: &mut [Lane],
+        columns: &mut [F64x8],
     ) {
         memory.normal.store(|column, value| value.store(&mut columns[column]));
         store_number(self.touched, memory.touched, columns);
@@ -136,18 +136,18 @@ impl Layout {
 }
 
 #[inline(always)]
-fn load_number<R: Octet>(place: Option<usize>, columns: &[Lane]) -> R {
-    match place {
-        Some(place) => R::load(&columns[place]),
+fn load_number<R: Simd8>(index: Option<usize>, columns: &[F64x8]) -> R {
+    match index {
+        Some(index) => R::load(&columns[index]),
         None => R::zero(),
     }
 }
 
 #[inline(always)]
-fn load_vector<R: Octet>(place: Option<usize>, columns: &[Lane]) -> Vector3<R> {
-    match place {
-        Some(place) => {
-            let [x, y, z] = [&columns[place], &columns[place + 1], &columns[place + 2]];
+fn load_vector<R: Simd8>(index: Option<usize>, columns: &[F64x8]) -> Vector3<R> {
+    match index {
+        Some(index) => {
+            let [x, y, z] = [&columns[index], &columns[index + 1], &columns[index + 2]];
             Vector3::new(R::load(x), R::load(y), R::load(z))
         }
         None => Vector3::zero(),
@@ -155,18 +155,18 @@ fn load_vector<R: Octet>(place: Option<usize>, columns: &[Lane]) -> Vector3<R> {
 }
 
 #[inline(always)]
-fn store_number<R: Octet>(place: Option<usize>, value: R, columns: &mut [Lane]) {
-    if let Some(place) = place {
-        value.store(&mut columns[place]);
+fn store_number<R: Simd8>(index: Option<usize>, value: R, columns: &mut [F64x8]) {
+    if let Some(index) = index {
+        value.store(&mut columns[index]);
     }
 }
 
 #[inline(always)]
-fn store_vector<R: Octet>(place: Option<usize>, value: Vector3<R>, columns: &mut [Lane]) {
-    if let Some(place) = place {
-        value.x.store(&mut columns[place]);
-        value.y.store(&mut columns[place + 1]);
-        value.z.store(&mut columns[place + 2]);
+fn store_vector<R: Simd8>(index: Option<usize>, value: Vector3<R>, columns: &mut [F64x8]) {
+    if let Some(index) = index {
+        value.x.store(&mut columns[index]);
+        value.y.store(&mut columns[index + 1]);
+        value.z.store(&mut columns[index + 2]);
     }
 }
 
@@ -194,10 +194,10 @@ mod tests {
         let slider =
             SpringSlider { stiffness: 1.0, dashpot: 0.0, dynamic_coefficient: 1.0, static_coefficient: 1.0 };
         let mut full = ContactModel::frictionless(luding());
-        full.composition.sliding = Some(slider);
-        full.composition.torsion = Some(slider);
+        full.laws.sliding = Some(slider);
+        full.laws.torsion = Some(slider);
         let mut sliding_only = ContactModel::frictionless(luding());
-        sliding_only.composition.sliding = Some(slider);
+        sliding_only.laws.sliding = Some(slider);
         let (full, sliding_only) = (Layout::of(&full), Layout::of(&sliding_only));
         assert_eq!(full.columns(), 5);
         let record = [9.0, 1.0, 2.0, 3.0, 7.0];
@@ -210,16 +210,16 @@ mod tests {
     #[test]
     fn what_is_stored_is_what_is_loaded() {
         let mut model = ContactModel::frictionless(luding());
-        model.composition.sliding = Some(SpringSlider {
+        model.laws.sliding = Some(SpringSlider {
             stiffness: 1.0,
             dashpot: 0.0,
             dynamic_coefficient: 1.0,
             static_coefficient: 1.0,
         });
         let layout = Layout::of(&model);
-        let columns: Vec<Lane> = (0..4).map(|column| Lane::from([f64::from(column); 8])).collect();
-        let memory = layout.load::<Lane, LudingMemory<Lane>, { resistance::SLIDING }>(&columns);
-        let mut copy = vec![Lane::default(); 4];
+        let columns: Vec<F64x8> = (0..4).map(|column| F64x8::from([f64::from(column); 8])).collect();
+        let memory = layout.load::<F64x8, LudingMemory<F64x8>, { resistance::SLIDING }>(&columns);
+        let mut copy = vec![F64x8::default(); 4];
         layout.store::<_, _, { resistance::SLIDING }>(&memory, &mut copy);
         assert_eq!(copy, columns);
     }

@@ -1,16 +1,16 @@
-//! Listing the candidates of a piece.
+//! Listing the candidates of a chunk.
 
 use pulvis_contact::ContactModel;
-use pulvis_math::{Quad, Vector3};
+use pulvis_math::{Packed4, Vector3};
 
 use super::block::{Candidate, ContactGroup, Partner, WIDTH};
-use super::candidates::{Near, Search};
-use super::piece::{Closed, Piece};
+use super::chunk::{Approach, Chunk};
 use super::rebuild::{LayoutNumber, MemoryStore, wall_partner};
 use super::row_set::RowSet;
+use super::search::{Near, Search};
 use super::table::Surroundings;
 use crate::counting_sort::counting_sort;
-use crate::neighbours::{CellGrid, Stretch};
+use crate::neighbours::{CellGrid, RowRangePair};
 use crate::phases::Phases;
 
 /// Candidates are sorted into blocks by their gap over the thickest skin, up to these bounds and beyond: what touches
@@ -19,17 +19,17 @@ const GAP_CLASSES: [f64; 3] = [0.01, 0.06, 0.3];
 /// In each class, pairs across a periodic boundary come last.
 const CLASSES: usize = 2 * (GAP_CLASSES.len() + 1);
 
-/// Room for the candidates of one piece after the other.
+/// Room for the candidates of one chunk after the other.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Listing {
-    stretches: Vec<Stretch>,
+    row_ranges: Vec<RowRangePair>,
     near: Vec<Near>,
     /// Of each pair that is near, by group and class of gaps; what is too far apart comes last.
     classes: Vec<u32>,
     /// The pairs by class, then in cell order, and where each class begins.
     order: Vec<u32>,
     class_starts: Vec<u32>,
-    /// The rows of later pieces.
+    /// The rows of later chunks.
     halo: RowSet,
     candidates: Vec<Candidate>,
 }
@@ -43,21 +43,21 @@ pub(super) struct Sources<'a> {
 }
 
 impl Listing {
-    /// Lists the candidates of a piece anew; contacts keep their memory.
-    pub(super) fn list(&mut self, piece: &mut Piece, sources: Sources<'_>) {
-        let mut spare = std::mem::take(&mut piece.groups).into_iter();
-        piece.incoming.clear();
-        piece.dependents.clear();
-        piece.closed = Closed::default();
-        piece.phases = Phases::default();
-        self.find_near(piece, sources);
-        self.list_pairs(piece, sources, &mut spare);
-        self.list_walls(piece, sources, &mut spare);
+    /// Lists the candidates of a chunk anew; contacts keep their memory.
+    pub(super) fn list(&mut self, chunk: &mut Chunk, sources: Sources<'_>) {
+        let mut spare = std::mem::take(&mut chunk.groups).into_iter();
+        chunk.halo_contributions.clear();
+        chunk.dependents.clear();
+        chunk.approach = Approach::default();
+        chunk.phases = Phases::default();
+        self.find_near(chunk, sources);
+        self.list_pairs(chunk, sources, &mut spare);
+        self.list_walls(chunk, sources, &mut spare);
     }
 
     /// Memory [byte].
     pub(super) fn memory_size(&self) -> usize {
-        size_of_val(&self.stretches[..])
+        size_of_val(&self.row_ranges[..])
             + size_of_val(&self.near[..])
             + size_of_val(&self.classes[..])
             + size_of_val(&self.order[..])
@@ -66,27 +66,28 @@ impl Listing {
     }
 
     /// Finds the pairs that may touch before the next list, and sorts them.
-    fn find_near(&mut self, piece: &Piece, Sources { around, grid, .. }: Sources<'_>) {
+    fn find_near(&mut self, chunk: &Chunk, Sources { around, grid, .. }: Sources<'_>) {
         let Surroundings { particles, interactions, images, skin, instructions, .. } = *around;
-        let (skinned, material) = (skin.places(), &particles.material);
-        let Self { stretches, near, classes, .. } = self;
-        stretches.clear();
-        let rows = piece.rows.start as u32..piece.rows.end as u32;
-        grid.for_each_stretch_of(rows, skinned, |stretch| stretches.push(stretch));
+        let (skinned, material) = (skin.positions(), &particles.material);
+        let Self { row_ranges, near, classes, .. } = self;
+        row_ranges.clear();
+        let rows = chunk.rows.start as u32..chunk.rows.end as u32;
+        grid.for_each_row_range_pair_of(rows, skinned, |stretch| row_ranges.push(stretch));
         near.clear();
-        let margin = interactions.reach();
-        instructions.run(Search { stretches, places: skinned, images, margin, near });
+        let margin = interactions.interaction_range();
+        instructions.run(Search { row_ranges, positions: skinned, images, margin, near });
         // What has no model is never near.
-        let reach = |group| interactions.model(group).map_or(f64::NEG_INFINITY, ContactModel::reach);
-        let reaches: Vec<f64> = (0..interactions.groups()).map(reach).collect();
+        let interaction_range =
+            |group| interactions.model(group).map_or(f64::NEG_INFINITY, ContactModel::interaction_range);
+        let ranges: Vec<f64> = (0..interactions.groups()).map(interaction_range).collect();
         let bounds = GAP_CLASSES.map(|bound| bound * skin.thickest);
-        let skin_of = |row: u32| skinned[row as usize].scalar - particles.place[row as usize].scalar;
-        let far = reaches.len() * CLASSES;
+        let skin_of = |row: u32| skinned[row as usize].scalar - particles.position[row as usize].scalar;
+        let far = ranges.len() * CLASSES;
         classes.clear();
         classes.extend(near.iter_mut().map(|Near { rows: [one, other], gap }| {
             let group = interactions.group(material[*one as usize], material[*other as usize]);
             // So far between skins.
-            *gap -= reaches[group];
+            *gap -= ranges[group];
             let skins_meet = *gap < 0.0;
             *gap += skin_of(*one) + skin_of(*other);
             // Without branches: gaps follow no pattern.
@@ -100,33 +101,33 @@ impl Listing {
 
     fn list_pairs(
         &mut self,
-        piece: &mut Piece,
+        chunk: &mut Chunk,
         Sources { around, memory, .. }: Sources<'_>,
         spare: &mut impl Iterator<Item = ContactGroup>,
     ) {
         let id = &around.particles.id;
         let Self { near, classes, order, class_starts, halo, candidates, .. } = self;
-        let (start, end) = (piece.rows.start as u32, piece.rows.end as u32);
+        let (start, end) = (chunk.rows.start as u32, chunk.rows.end as u32);
         let near_ones = class_starts[class_starts.len() - 2] as usize;
         halo.begin(around.particles.len());
         order[..near_ones].iter().for_each(|&pair| halo.insert(near[pair as usize].rows[1]));
-        halo.count_from(end, &mut piece.halo);
-        for (place, starts) in class_starts.windows(CLASSES + 1).step_by(CLASSES).enumerate() {
-            let Some(&model) = around.interactions.model(place) else { continue };
+        halo.count_from(end, &mut chunk.halo);
+        for (index, starts) in class_starts.windows(CLASSES + 1).step_by(CLASSES).enumerate() {
+            let Some(&model) = around.interactions.model(index) else { continue };
             candidates.clear();
             let pairs = &order[starts[0] as usize..starts[CLASSES] as usize];
             candidates.extend(pairs.iter().map(|&pair| {
                 let Near { rows: [one, other], gap } = near[pair as usize];
-                let across = classes[pair as usize] % 2 == 1;
+                let crosses_boundary = classes[pair as usize] % 2 == 1;
                 let own = one - start;
-                let beyond = end - start + halo.place(other);
+                let beyond = end - start + halo.slot(other);
                 let others = if other < end { other - start } else { beyond };
                 // The first body of a contact is the one of the lower id: what the contact remembers
                 // does not change its sign when rows change their order.
                 if id[one as usize] < id[other as usize] {
-                    Candidate { rows: [one, other], sums: [own, others], gap, across }
+                    Candidate { rows: [one, other], sums: [own, others], gap, crosses_boundary }
                 } else {
-                    Candidate { rows: [other, one], sums: [others, own], gap, across }
+                    Candidate { rows: [other, one], sums: [others, own], gap, crosses_boundary }
                 }
             }));
             let mut group = ContactGroup::new(model, Partner::Particle, spare.next());
@@ -138,14 +139,14 @@ impl Listing {
                     memory.find([around.order[first as usize], around.order[second as usize]], group, number)
                 });
             }
-            piece.keep(group);
+            chunk.keep(group);
         }
     }
 
     /// Lists what may touch walls: one group for each model, in it wall by wall.
     fn list_walls(
         &mut self,
-        piece: &mut Piece,
+        chunk: &mut Chunk,
         Sources { around, memory, .. }: Sources<'_>,
         spare: &mut impl Iterator<Item = ContactGroup>,
     ) {
@@ -162,15 +163,15 @@ impl Listing {
                         (group, number)
                     });
                 group.wall_forces.resize(walls.len(), Vector3::zero());
-                let touch = wall.offset() + model.reach();
+                let touch = wall.offset() + model.interaction_range();
                 candidates.clear();
-                for row in piece.rows.clone().filter(|&row| particles.material[row] == material) {
-                    let Quad { vector, scalar } = particles.place[row];
+                for row in chunk.rows.clone().filter(|&row| particles.material[row] == material) {
+                    let Packed4 { vector, scalar } = particles.position[row];
                     let gap = vector.dot(wall.normal) - scalar - touch;
-                    if gap < skin.of_walls() + (skin.places()[row].scalar - scalar) {
-                        let sum = (row - piece.rows.start) as u32;
+                    if gap < skin.of_walls() + (skin.positions()[row].scalar - scalar) {
+                        let sum = (row - chunk.rows.start) as u32;
                         let rows = [row as u32, wall_number as u32];
-                        candidates.push(Candidate { rows, sums: [sum, 0], gap, across: false });
+                        candidates.push(Candidate { rows, sums: [sum, 0], gap, crosses_boundary: false });
                     }
                 }
                 for block in candidates.chunks(WIDTH) {
@@ -181,6 +182,6 @@ impl Listing {
                 }
             }
         }
-        groups.into_iter().flatten().for_each(|(group, _)| piece.keep(group));
+        groups.into_iter().flatten().for_each(|(group, _)| chunk.keep(group));
     }
 }

@@ -3,28 +3,28 @@
 use std::borrow::Cow;
 
 use super::block::{ContactGroup, Partner};
+use super::chunk::Chunk;
 use super::layout::Layout;
-use super::piece::Piece;
-use crate::team::Team;
+use crate::thread_pool::ThreadPool;
 
 /// The memory of all contacts that remember anything, by the rows that their bodies had when it was
-/// gathered: rows that follow each other are near each other, ids are not.
+/// inputs: rows that follow each other are near each other, ids are not.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MemoryStore {
-    /// One for each piece of then.
-    pieces: Vec<PieceMemory>,
-    /// Rows of a piece, but for the last one.
+    /// One for each chunk of then.
+    chunks: Vec<ChunkMemory>,
+    /// Rows of a chunk, but for the last one.
     length: u32,
     /// The layouts that records are written with, and the names of their normal laws.
     layouts: Vec<(Layout, &'static str)>,
 }
 
-/// The place of a group's layout among those of a store; none if nothing was written with it.
+/// The index of a group's layout among those of a store; none if nothing was written with it.
 pub(crate) type LayoutNumber = Option<u32>;
 
-/// The memory of the contacts that a piece owned, by the lower row.
+/// The memory of the contacts that a chunk owned, by the lower row.
 #[derive(Clone, Debug, Default)]
-struct PieceMemory {
+struct ChunkMemory {
     first_row: usize,
     /// First entry of each row, and one more at the end.
     starts: Vec<u32>,
@@ -39,7 +39,7 @@ struct PieceMemory {
 #[derive(Clone, Copy, Debug, Default)]
 struct Entry {
     layout: u32,
-    /// First place among the records.
+    /// First index among the records.
     record: u32,
 }
 
@@ -49,19 +49,19 @@ pub(crate) fn wall_partner(wall: usize) -> u32 {
 }
 
 impl MemoryStore {
-    /// Takes in the memory of the contacts of all pieces; what was in it before is forgotten.
-    pub(crate) fn gather(&mut self, pieces: &[Piece], team: &Team) {
-        self.length = pieces.first().map_or(0, |piece| piece.rows.len() as u32);
+    /// Takes in the memory of the contacts of all chunks; what was in it before is forgotten.
+    pub(crate) fn gather(&mut self, chunks: &[Chunk], pool: &ThreadPool) {
+        self.length = chunks.first().map_or(0, |chunk| chunk.rows.len() as u32);
         self.layouts.clear();
-        for group in pieces.iter().flat_map(|piece| &piece.groups) {
+        for group in chunks.iter().flat_map(|chunk| &chunk.groups) {
             if self.layout_number(group).is_none() {
                 self.layouts.push(layout_of(group));
             }
         }
-        let mut memories = std::mem::take(&mut self.pieces);
-        memories.resize_with(pieces.len(), PieceMemory::default);
-        team.for_each(&mut memories, |number, memory| memory.gather(&pieces[number], self));
-        self.pieces = memories;
+        let mut memories = std::mem::take(&mut self.chunks);
+        memories.resize_with(chunks.len(), ChunkMemory::default);
+        pool.for_each(&mut memories, |number, memory| memory.gather(&chunks[number], self));
+        self.chunks = memories;
     }
 
     /// The number that [`find`](Self::find) asks for, for all contacts of a group.
@@ -72,7 +72,7 @@ impl MemoryStore {
 
     /// Memory [byte].
     pub(crate) fn memory_size(&self) -> usize {
-        self.pieces.iter().map(PieceMemory::memory_size).sum()
+        self.chunks.iter().map(ChunkMemory::memory_size).sum()
     }
 
     /// The memory of the contact between two bodies, by their rows of then, in the layout of the group that
@@ -85,7 +85,7 @@ impl MemoryStore {
         number: LayoutNumber,
     ) -> Option<Cow<'_, [f64]>> {
         let [low, high] = [rows[0].min(rows[1]), rows[0].max(rows[1])];
-        let memory = self.pieces.get(low.checked_div(self.length)? as usize)?;
+        let memory = self.chunks.get(low.checked_div(self.length)? as usize)?;
         let (layout, records) = memory.find(low, high)?;
         if Some(layout) == number {
             return records.get(..group.layout.columns()).map(Cow::from);
@@ -100,14 +100,14 @@ fn layout_of(group: &ContactGroup) -> (Layout, &'static str) {
     (group.layout, group.model.normal.entry().name)
 }
 
-impl PieceMemory {
-    fn gather(&mut self, piece: &Piece, store: &MemoryStore) {
+impl ChunkMemory {
+    fn gather(&mut self, chunk: &Chunk, store: &MemoryStore) {
         self.starts.clear();
         self.records.clear();
-        self.first_row = piece.rows.start;
-        self.starts.resize(piece.rows.len() + 1, 0);
+        self.first_row = chunk.rows.start;
+        self.starts.resize(chunk.rows.len() + 1, 0);
         let mut unsorted = std::mem::take(&mut self.unsorted);
-        for group in &piece.groups {
+        for group in &chunk.groups {
             let layout = store.layout_number(group).unwrap_or_default();
             group.for_each_memory(&mut self.records, |block, lane, record| {
                 let first = group.first_row(block, lane);
@@ -115,22 +115,22 @@ impl PieceMemory {
                     Partner::Particle => group.second_row(block, lane),
                     Partner::Wall => wall_partner(group.second_row(block, lane) as usize),
                 };
-                let place = first.min(partner) - self.first_row as u32;
-                unsorted.push(([place, first.max(partner)], Entry { layout, record: record as u32 }));
-                self.starts[place as usize + 1] += 1;
+                let index = first.min(partner) - self.first_row as u32;
+                unsorted.push(([index, first.max(partner)], Entry { layout, record: record as u32 }));
+                self.starts[index as usize + 1] += 1;
             });
         }
-        for row in 0..piece.rows.len() {
+        for row in 0..chunk.rows.len() {
             self.starts[row + 1] += self.starts[row];
         }
         self.entries.resize(unsorted.len(), Entry::default());
         self.partners.resize(unsorted.len() + 8, 0);
-        // Every row's next free place is kept where the row begins, until all are moved back by one.
+        // Every row's next free index is kept where the row begins, until all are moved back by one.
         for &([row, partner], entry) in &unsorted {
-            let place = &mut self.starts[row as usize];
-            self.partners[*place as usize] = partner;
-            self.entries[*place as usize] = entry;
-            *place += 1;
+            let index = &mut self.starts[row as usize];
+            self.partners[*index as usize] = partner;
+            self.entries[*index as usize] = entry;
+            *index += 1;
         }
         self.starts.rotate_right(1);
         self.starts[0] = 0;
@@ -149,8 +149,8 @@ impl PieceMemory {
     /// The number of the layout of what two rows' contact remembers, and the records from there on.
     #[inline(always)]
     fn find(&self, row: u32, partner: u32) -> Option<(u32, &[f64])> {
-        let place = row as usize - self.first_row;
-        let (mut start, end) = (*self.starts.get(place)?, *self.starts.get(place + 1)?);
+        let index = row as usize - self.first_row;
+        let (mut start, end) = (*self.starts.get(index)?, *self.starts.get(index + 1)?);
         while start < end {
             let eight = self.partners.get(start as usize..)?.first_chunk::<8>()?;
             // Without a branch for each: how many a row has follows no pattern.

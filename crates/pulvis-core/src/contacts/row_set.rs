@@ -1,4 +1,4 @@
-//! A set of rows, and the place of each among them.
+//! A set of rows, and the slot of each among them.
 
 /// Rows of a word.
 const WIDTH: u32 = u64::BITS;
@@ -36,7 +36,7 @@ impl RowSet {
         word.rows |= 1 << (row % WIDTH);
     }
 
-    /// Drops the rows before `first`, counts the others, for [`place`](Self::place) to be right, and writes
+    /// Drops the rows before `first`, counts the others, for [`slot`](Self::slot) to be right, and writes
     /// them down in ascending order.
     pub(super) fn count_from(&mut self, first: u32, rows: &mut Vec<u32>) {
         rows.clear();
@@ -57,7 +57,7 @@ impl RowSet {
     /// How many rows of the set come before `row`, which is one of them; of another row, which some insertion
     /// has named, anything.
     #[inline(always)]
-    pub(super) fn place(&self, row: u32) -> u32 {
+    pub(super) fn slot(&self, row: u32) -> u32 {
         let word = &self.words[(row / WIDTH) as usize];
         word.before + (word.rows & ((1 << (row % WIDTH)) - 1)).count_ones()
     }
@@ -89,8 +89,8 @@ mod tests {
                 set.count_from(first, &mut listed);
                 let expected: BTreeSet<u32> = rows.into_iter().filter(|&row| row >= first).collect();
                 prop_assert!(expected.iter().eq(&listed));
-                for (place, &row) in listed.iter().enumerate() {
-                    prop_assert_eq!(set.place(row), place as u32);
+                for (slot, &row) in listed.iter().enumerate() {
+                    prop_assert_eq!(set.slot(row), slot as u32);
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Contacts as others see them: one at a time, with forces, for output and analysis.
 
-use pulvis_contact::{Memory, NormalLaw, NormalLawVisitor, Pair, PairMotion, resistance};
+use pulvis_contact::{ContactKinematics, Memory, NormalLaw, NormalLawVisitor, Pair, resistance};
 use pulvis_math::Vector3;
 
 use super::block::{ContactGroup, Partner};
@@ -13,7 +13,7 @@ use crate::particles::{ParticleId, Particles};
 pub enum ContactPartner {
     /// A particle.
     Particle(ParticleId),
-    /// The wall at this place in the list of walls.
+    /// The wall at this index in the list of walls.
     Wall(usize),
 }
 
@@ -63,8 +63,8 @@ impl NormalLawVisitor for Looking<'_, '_> {
     type Output = ();
     fn visit<N: NormalLaw>(self, law: N) {
         let group = self.views.group;
-        for block in (0..group.rows.len()).filter(|&block| group.live[block]) {
-            for lane in 0..group.filled(block) {
+        for block in (0..group.rows.len()).filter(|&block| group.active[block]) {
+            for lane in 0..group.occupancy(block) {
                 if let Some(view) = self.views.look(&law, block, lane) {
                     (self.see)(&view);
                 }
@@ -77,18 +77,13 @@ impl Views<'_> {
     fn look<N: NormalLaw>(&self, law: &N, block: usize, lane: usize) -> Option<ContactView> {
         let group = self.group;
         let seen = self.geometry(group.first_row(block, lane) as usize, block, lane)?;
-        let composition = &group.model.composition;
-        if seen.motion.overlap <= -composition.noncontact.reach() {
+        let laws = &group.model.laws;
+        if seen.motion.overlap <= -laws.noncontact.interaction_range() {
             return None;
         }
         let mut memory = group.layout.load_one::<N::Memory<f64>>(group.columns(block), lane);
-        let answer = composition.respond::<f64, N, { resistance::ALL }>(
-            law,
-            &seen.pair,
-            &seen.motion,
-            0.0,
-            &mut memory,
-        );
+        let answer =
+            laws.respond::<f64, N, { resistance::ALL }>(law, &seen.pair, &seen.motion, 0.0, &mut memory);
         if seen.motion.overlap <= 0.0 && answer.force == Vector3::zero() {
             return None;
         }
@@ -114,15 +109,15 @@ impl Views<'_> {
     fn geometry(&self, i: usize, block: usize, lane: usize) -> Option<Seen> {
         let particles = self.particles;
         let velocity = |row: usize| particles.velocity[row].vector;
-        let spin = |row: usize| particles.spin[row].vector;
-        let (centre, radius, mass) = (particles.place[i].vector, &particles.radius, &particles.mass);
+        let angular_velocity = |row: usize| particles.angular_velocity[row].vector;
+        let (centre, radius, mass) = (particles.position[i].vector, &particles.radius, &particles.mass);
         let first = particles.id[i];
         match self.group.partner {
             Partner::Particle => {
                 let j = self.group.second_row(block, lane) as usize;
-                let separation = self.images.nearest(centre - particles.place[j].vector);
+                let separation = self.images.nearest(centre - particles.position[j].vector);
                 let inverse_distance = 1.0 / separation.norm();
-                let motion = PairMotion {
+                let motion = ContactKinematics {
                     normal: separation * inverse_distance,
                     overlap: radius[i] + radius[j] - separation.norm(),
                     inverse_distance,
@@ -130,10 +125,10 @@ impl Views<'_> {
                     radius_j: radius[j],
                     velocity: velocity(i) - velocity(j),
                     velocity_mid: velocity(i) - velocity(j),
-                    spin_i: spin(i),
-                    spin_j: spin(j),
-                    spin_i_mid: spin(i),
-                    spin_j_mid: spin(j),
+                    angular_velocity_i: angular_velocity(i),
+                    angular_velocity_j: angular_velocity(j),
+                    angular_velocity_i_mid: angular_velocity(i),
+                    angular_velocity_j_mid: angular_velocity(j),
                 };
                 let pair = Pair::spheres(mass[i], mass[j], radius[i], radius[j]);
                 let second = ContactPartner::Particle(particles.id[j]);
@@ -141,10 +136,10 @@ impl Views<'_> {
                 Some(Seen { motion, pair, first, second, centre_first: centre, centre_second })
             }
             Partner::Wall => {
-                let place = self.group.second_row(block, lane) as usize;
-                let wall = self.walls.get(place)?;
+                let index = self.group.second_row(block, lane) as usize;
+                let wall = self.walls.get(index)?;
                 let distance = centre.dot(wall.normal) - wall.offset;
-                let motion = PairMotion {
+                let motion = ContactKinematics {
                     normal: wall.normal,
                     overlap: radius[i] - distance,
                     inverse_distance: 0.0,
@@ -152,13 +147,13 @@ impl Views<'_> {
                     radius_j: 0.0,
                     velocity: velocity(i) - wall.velocity,
                     velocity_mid: velocity(i) - wall.velocity,
-                    spin_i: spin(i),
-                    spin_j: Vector3::zero(),
-                    spin_i_mid: spin(i),
-                    spin_j_mid: Vector3::zero(),
+                    angular_velocity_i: angular_velocity(i),
+                    angular_velocity_j: Vector3::zero(),
+                    angular_velocity_i_mid: angular_velocity(i),
+                    angular_velocity_j_mid: Vector3::zero(),
                 };
                 let pair = Pair::wall(mass[i], radius[i]);
-                let second = ContactPartner::Wall(place);
+                let second = ContactPartner::Wall(index);
                 let centre_second = centre - wall.normal * distance;
                 Some(Seen { motion, pair, first, second, centre_first: centre, centre_second })
             }
@@ -168,7 +163,7 @@ impl Views<'_> {
 
 /// One contact before its response.
 struct Seen {
-    motion: PairMotion<f64>,
+    motion: ContactKinematics<f64>,
     pair: Pair<f64>,
     first: ParticleId,
     second: ContactPartner,

@@ -4,6 +4,6 @@ mod grid;
 mod moved;
 mod skin;
 
-pub(crate) use grid::{CellGrid, Stretch};
+pub(crate) use grid::{CellGrid, RowRangePair};
 pub(crate) use moved::Moved;
 pub(crate) use skin::Skin;

@@ -1,6 +1,6 @@
 //! How far particles have moved.
 
-use pulvis_math::{Kernel, Octet, Quad, Real, Row, Vector3};
+use pulvis_math::{Kernel, Packed4, Real, Simd4, Simd8, Vector3};
 
 /// How far particles have moved since they were listed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,19 +46,19 @@ impl Moved {
 
 /// Looks how far particles have moved that were listed with these radii and skins.
 pub(super) struct Survey<'a> {
-    pub(super) places: &'a [Quad],
-    pub(super) listed: &'a [Quad],
+    pub(super) positions: &'a [Packed4],
+    pub(super) listed: &'a [Packed4],
 }
 
 impl Kernel for Survey<'_> {
     type Output = Moved;
 
     #[inline(always)]
-    fn run<R: Octet>(self) -> Moved {
-        let (places, last_places) = self.places.as_chunks::<8>();
+    fn run<R: Simd8>(self) -> Moved {
+        let (positions, last_places) = self.positions.as_chunks::<8>();
         let (listed, last_listed) = self.listed.as_chunks::<8>();
         let (mut longest, mut second, mut left) = (R::zero(), R::zero(), R::splat(f64::INFINITY));
-        for (now, before) in places.iter().zip(listed) {
+        for (now, before) in positions.iter().zip(listed) {
             let [x, y, z, radius] = columns::<R>(now);
             let [x_before, y_before, z_before, skinned] = columns::<R>(before);
             let way = way_of(Vector3::new(x - x_before, y - y_before, z - z_before));
@@ -67,7 +67,7 @@ impl Kernel for Survey<'_> {
             left = left.min(skinned - radius - way);
         }
         let mut moved = Moved::default();
-        let [longest, second, left] = [longest.to_lanes(), second.to_lanes(), left.to_lanes()];
+        let [longest, second, left] = [longest.to_array(), second.to_array(), left.to_array()];
         for lane in 0..8 {
             moved.take_in(longest.0[lane], f64::INFINITY);
             moved.take_in(second.0[lane], f64::INFINITY);
@@ -88,16 +88,16 @@ fn way_of<R: Real>(way: Vector3<R>) -> R {
 }
 
 #[inline(always)]
-fn columns<R: Octet>(quads: &[Quad; 8]) -> [R; 4] {
+fn columns<R: Simd8>(packed: &[Packed4; 8]) -> [R; 4] {
     R::columns([
-        R::Row::load(&quads[0]),
-        R::Row::load(&quads[1]),
-        R::Row::load(&quads[2]),
-        R::Row::load(&quads[3]),
-        R::Row::load(&quads[4]),
-        R::Row::load(&quads[5]),
-        R::Row::load(&quads[6]),
-        R::Row::load(&quads[7]),
+        R::Simd4::load(&packed[0]),
+        R::Simd4::load(&packed[1]),
+        R::Simd4::load(&packed[2]),
+        R::Simd4::load(&packed[3]),
+        R::Simd4::load(&packed[4]),
+        R::Simd4::load(&packed[5]),
+        R::Simd4::load(&packed[6]),
+        R::Simd4::load(&packed[7]),
     ])
 }
 
@@ -109,11 +109,12 @@ mod tests {
 
     /// Particles of radius 1 that have moved so far along x, each in its skin.
     fn moved(ways_and_skins: &[(f64, f64)]) -> Moved {
-        let at = |x: f64, radius: f64| Quad::new(Vector3::new(x, 0.0, 0.0), radius);
-        let places: Vec<Quad> = ways_and_skins.iter().map(|&(way, _)| at(way, 1.0)).collect();
-        let listed: Vec<Quad> = ways_and_skins.iter().map(|&(_, skin)| at(0.0, 1.0 + skin)).collect();
+        let at = |x: f64, radius: f64| Packed4::new(Vector3::new(x, 0.0, 0.0), radius);
+        let positions: Vec<Packed4> = ways_and_skins.iter().map(|&(way, _)| at(way, 1.0)).collect();
+        let listed: Vec<Packed4> = ways_and_skins.iter().map(|&(_, skin)| at(0.0, 1.0 + skin)).collect();
         let sets = InstructionSet::available().into_iter();
-        let all: Vec<Moved> = sets.map(|set| set.run(Survey { places: &places, listed: &listed })).collect();
+        let all: Vec<Moved> =
+            sets.map(|set| set.run(Survey { positions: &positions, listed: &listed })).collect();
         assert!(all.iter().all(|moved| *moved == all[0]), "{all:?}");
         all[0]
     }
@@ -121,10 +122,10 @@ mod tests {
     #[test]
     fn the_two_longest_ways_are_kept_in_any_order_and_the_least_that_is_left() {
         for length in 3..30 {
-            for place in 0..length {
+            for index in 0..length {
                 let mut all = vec![(-0.5, 1.0); length];
-                all[place] = (-3.0, 8.0);
-                all[(place + 1) % length] = (2.0, 2.25);
+                all[index] = (-3.0, 8.0);
+                all[(index + 1) % length] = (2.0, 2.25);
                 assert_eq!(moved(&all), Moved { longest: 3.0, second: 2.0, left: 0.25 });
             }
         }
@@ -134,11 +135,11 @@ mod tests {
     #[test]
     fn what_is_nowhere_has_left_its_skin() {
         for length in 1..20 {
-            for (place, nowhere) in
-                (0..length).flat_map(|place| [f64::NAN, f64::INFINITY].map(|x| (place, x)))
+            for (index, nowhere) in
+                (0..length).flat_map(|index| [f64::NAN, f64::INFINITY].map(|x| (index, x)))
             {
                 let mut all = vec![(0.0, 1.0); length];
-                all[place].0 = nowhere;
+                all[index].0 = nowhere;
                 let moved = moved(&all);
                 assert_eq!((moved.longest, moved.left), (f64::INFINITY, f64::NEG_INFINITY));
             }

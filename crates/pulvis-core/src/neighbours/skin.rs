@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use pulvis_math::{InstructionSet, Quad};
+use pulvis_math::{InstructionSet, Packed4};
 
 use super::moved::{Moved, Survey};
 use crate::particles::Particles;
-use crate::team::Team;
+use crate::thread_pool::ThreadPool;
 
 /// How far particles and walls may move before candidates are listed anew, and where they were when that was done.
 ///
@@ -19,7 +19,7 @@ pub(crate) struct Skin {
     pub(crate) thickest: f64,
     pub(crate) thinnest: f64,
     /// Centres when the candidates were listed [m], and radii with skins [m].
-    places: Vec<Quad>,
+    positions: Vec<Packed4>,
     walls: Vec<f64>,
     /// Steps since the list was made.
     steps: u64,
@@ -48,17 +48,17 @@ impl Skin {
 
     /// Makes the thinnest skin thicker where those that have it have come near its end, or thinner where they stayed
     /// far from that: where particles are now tells.
-    pub(crate) fn adapt(&mut self, places: &[Quad], team: &Team) {
-        let (listed, thinnest) = (&self.places, self.thinnest);
+    pub(crate) fn adapt(&mut self, positions: &[Packed4], pool: &ThreadPool) {
+        let (listed, thinnest) = (&self.positions, self.thinnest);
         if thinnest == self.thickest {
             return;
         }
-        let longest = team.largest_over(places.len(), |rows| {
-            let way = |(now, before): (&Quad, &Quad)| {
+        let longest = pool.largest_over(positions.len(), |rows| {
+            let way = |(now, before): (&Packed4, &Packed4)| {
                 let thin = before.scalar - now.scalar < 1.01 * thinnest;
                 if thin { (now.vector - before.vector).norm_squared() } else { 0.0 }
             };
-            places[rows.clone()].iter().zip(&listed[rows]).map(way).fold(0.0, f64::max)
+            positions[rows.clone()].iter().zip(&listed[rows]).map(way).fold(0.0, f64::max)
         });
         // Over what the speeds that particles had when they were listed account for.
         let used = longest.sqrt() / thinnest * LIFE as f64 / self.steps.max(1) as f64;
@@ -70,14 +70,14 @@ impl Skin {
     }
 
     /// Gives all particles their skins; they have moved nowhere since. `time_step` in s.
-    pub(crate) fn renew(&mut self, particles: &Particles, time_step: f64, team: &Team) {
+    pub(crate) fn renew(&mut self, particles: &Particles, time_step: f64, pool: &ThreadPool) {
         let time = LIFE as f64 * time_step;
         let (thinnest, thickest) = (self.thinnest, self.thickest);
-        team.fill(&mut self.places, particles.len(), |row| {
-            let Quad { vector, scalar } = particles.place[row];
+        pool.fill(&mut self.positions, particles.len(), |row| {
+            let Packed4 { vector, scalar } = particles.position[row];
             // What is no number gives way to the others.
             let way = particles.velocity[row].vector.norm() * time;
-            Quad::new(vector, scalar + way.max(thinnest).min(thickest))
+            Packed4::new(vector, scalar + way.max(thinnest).min(thickest))
         });
         self.steps = 0;
     }
@@ -89,13 +89,13 @@ impl Skin {
     }
 
     /// The particles are in a new order: row k is what was row `order[k]`.
-    pub(crate) fn reorder(&mut self, order: &[u32], team: &Team) {
-        team.reorder(&mut self.places, order, &mut Vec::new());
+    pub(crate) fn reorder(&mut self, order: &[u32], pool: &ThreadPool) {
+        pool.reorder(&mut self.positions, order, &mut Vec::new());
     }
 
     /// Centres when the candidates were listed [m], and radii with skins [m].
-    pub(crate) fn places(&self) -> &[Quad] {
-        &self.places
+    pub(crate) fn positions(&self) -> &[Packed4] {
+        &self.positions
     }
 
     /// The skin of walls [m].
@@ -109,9 +109,14 @@ impl Skin {
         self.steps.is_multiple_of(SURVEY)
     }
 
-    /// How far the particles of some rows, now at `places`, have moved since the list was made.
-    pub(crate) fn moved(&self, rows: Range<usize>, places: &[Quad], instructions: InstructionSet) -> Moved {
-        instructions.run(Survey { places: &places[rows.clone()], listed: &self.places[rows] })
+    /// How far the particles of some rows, now at `positions`, have moved since the list was made.
+    pub(crate) fn moved(
+        &self,
+        rows: Range<usize>,
+        positions: &[Packed4],
+        instructions: InstructionSet,
+    ) -> Moved {
+        instructions.run(Survey { positions: &positions[rows.clone()], listed: &self.positions[rows] })
     }
 
     /// The longest way of any wall since the list was made [m].
@@ -148,11 +153,12 @@ mod tests {
         let mut adapted = |used: f64| {
             skin.steps = LIFE;
             for _ in 0..20 {
-                let listed = |own: f64| Quad::new(Vector3::zero(), 1.0 + own);
+                let listed = |own: f64| Packed4::new(Vector3::zero(), 1.0 + own);
                 // A fast one does not count.
-                skin.places = vec![listed(skin.thinnest), listed(1.0)];
-                let places = [used * skin.thinnest, 0.9].map(|x| Quad::new(Vector3::new(x, 0.0, 0.0), 1.0));
-                skin.adapt(&places, &Team::default());
+                skin.positions = vec![listed(skin.thinnest), listed(1.0)];
+                let positions =
+                    [used * skin.thinnest, 0.9].map(|x| Packed4::new(Vector3::new(x, 0.0, 0.0), 1.0));
+                skin.adapt(&positions, &ThreadPool::default());
             }
             skin.thinnest
         };
@@ -160,7 +166,7 @@ mod tests {
         assert_eq!(adapted(1.5), THINNEST.start);
         assert_eq!(adapted(3.0), THINNEST.end);
         skin.set(0.3);
-        skin.adapt(&[], &Team::default());
+        skin.adapt(&[], &ThreadPool::default());
         assert_eq!((skin.thinnest, skin.thickest), (0.3, 0.3));
     }
 }

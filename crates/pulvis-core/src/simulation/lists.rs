@@ -3,7 +3,7 @@
 use super::{Outcome, Simulation};
 use crate::contacts::Surroundings;
 use crate::neighbours::{CellGrid, Moved};
-use crate::particles::Load;
+use crate::particles::ForceTorque;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
 use crate::walls::Wall;
@@ -33,7 +33,7 @@ impl Simulation {
         let mut clock = Stopwatch::start(self.phases.is_some());
         self.phases = self.phases();
         self.choose_skin();
-        self.contacts.remember(&mut self.memory, &self.team);
+        self.contacts.remember(&mut self.memory, &self.pool);
         self.rebuild();
         self.rebuilds += 1;
         if let Some(phases) = &mut self.phases {
@@ -72,16 +72,16 @@ impl Simulation {
     fn wrap(&mut self) {
         let (domain, gravity) = (&self.domain, self.background.gravity);
         let masses = &self.particles.mass;
-        let places = Shared::new(&mut self.particles.place);
-        let [fallen] = self.team.sum_over(masses.len(), |rows| {
+        let positions = Shared::new(&mut self.particles.position);
+        let [fallen] = self.pool.sum_over(masses.len(), |rows| {
             // SAFETY: stretches have different rows.
-            let places = unsafe { places.range_mut(rows.clone()) };
+            let positions = unsafe { positions.range_mut(rows.clone()) };
             let mut fallen = 0.0;
-            for (place, mass) in places.iter_mut().zip(&masses[rows]) {
-                let wrapped = domain.wrapped(place.vector);
+            for (position, mass) in positions.iter_mut().zip(&masses[rows]) {
+                let wrapped = domain.wrapped(position.vector);
                 // Falling through a periodic boundary is falling on: the potential must not jump.
-                fallen += mass * gravity.dot(wrapped - place.vector);
-                place.vector = wrapped;
+                fallen += mass * gravity.dot(wrapped - position.vector);
+                position.vector = wrapped;
             }
             [fallen]
         });
@@ -91,11 +91,12 @@ impl Simulation {
     /// Puts the particles into cell order and lists all candidates within reach and skin.
     pub(super) fn rebuild(&mut self) {
         self.wrap();
-        self.skin.renew(&self.particles, self.time_step, &self.team);
+        self.skin.renew(&self.particles, self.time_step, &self.pool);
         self.skin.renew_walls(self.walls.iter().map(Wall::offset));
-        let (grid, order) = CellGrid::sort(&self.domain, self.skin.places(), self.interactions.reach());
-        self.particles.reorder(&order, &self.team);
-        self.skin.reorder(&order, &self.team);
+        let (grid, order) =
+            CellGrid::sort(&self.domain, self.skin.positions(), self.interactions.interaction_range());
+        self.particles.reorder(&order, &self.pool);
+        self.skin.reorder(&order, &self.pool);
         let around = Surroundings {
             particles: &self.particles,
             order: &order,
@@ -106,10 +107,10 @@ impl Simulation {
             skin: &self.skin,
             instructions: self.instructions,
         };
-        let places = self.contacts.rebuild(&around, &grid, &self.memory, &self.team);
-        self.particles.loads.resize(places, Load::default());
+        let slots = self.contacts.rebuild(&around, &grid, &self.memory, &self.pool);
+        self.particles.forces_and_torques.resize(slots, ForceTorque::default());
         self.outcomes.clear();
         let moved = Moved::nowhere(self.skin.thinnest);
-        self.outcomes.resize(self.contacts.pieces().len(), Outcome { moved, ..Outcome::default() });
+        self.outcomes.resize(self.contacts.chunks().len(), Outcome { moved, ..Outcome::default() });
     }
 }

@@ -8,7 +8,7 @@ mod switch;
 
 pub use errors::{SetupError, StepError};
 
-use pulvis_math::{InstructionSet, Quad, Vector3};
+use pulvis_math::{InstructionSet, Packed4, Vector3};
 
 use crate::background::Background;
 use crate::contacts::{ContactTable, Interactions, MemoryStore, WallMotionNow};
@@ -18,13 +18,13 @@ use crate::ledger::Running;
 use crate::neighbours::{Moved, Skin};
 use crate::particles::{MaterialIndex, Particle, Particles};
 use crate::phases::Phases;
-use crate::team::Team;
+use crate::thread_pool::ThreadPool;
 use crate::walls::{Extent, FaceArea, Wall, WallMotion, WallState};
 
 /// What a simulation starts from.
 #[derive(Clone, Debug)]
 pub struct Setup {
-    /// The particles; their ids are their places in this list.
+    /// The particles; their ids are their indices in this list.
     pub particles: Vec<Particle>,
     /// Contact models by pair of materials.
     pub interactions: Interactions,
@@ -55,14 +55,14 @@ pub struct Simulation {
     contacts: ContactTable,
     /// What contacts remember while they are listed anew.
     memory: MemoryStore,
-    team: Team,
+    pool: ThreadPool,
     instructions: InstructionSet,
     accounting: bool,
     /// Where the time goes, if anybody wants to know; up to the last list of candidates.
     phases: Option<Phases>,
     /// The materials of all particles, each once.
     materials: Vec<MaterialIndex>,
-    /// Scratch: what came out of the integration of each piece.
+    /// Scratch: what came out of the integration of each chunk.
     outcomes: Vec<Outcome>,
     /// Scratch: how the walls lie and move, and their forces on the particles, in this step.
     walls_now: Vec<WallMotionNow>,
@@ -75,7 +75,7 @@ pub struct Simulation {
     rebuilds: u64,
 }
 
-/// What comes out of the integration of a piece of rows.
+/// What comes out of the integration of a chunk of rows.
 #[derive(Clone, Copy, Debug, Default)]
 struct Outcome {
     /// What the last kicks gave.
@@ -93,7 +93,7 @@ impl Outcome {
     }
 }
 
-/// Contacts keep 32-bit places of rows, counted in numbers of which a quad has four. Remembered contacts,
+/// Contacts keep 32-bit indices of rows, counted in numbers of which a packed vector has four. Remembered contacts,
 /// some three a particle, then still have 32-bit numbers; whatever else is counted over contacts has 64.
 const MOST_PARTICLES: usize = u32::MAX as usize / 4;
 
@@ -125,7 +125,7 @@ impl Simulation {
             time: 0.0,
             contacts: ContactTable::default(),
             memory: MemoryStore::default(),
-            team: Team::default(),
+            pool: ThreadPool::default(),
             instructions: InstructionSet::widest(),
             accounting: true,
             phases: None,
@@ -156,7 +156,7 @@ impl Simulation {
         }
         simulation.evaluate_at_rest();
         simulation.running.forget_losses();
-        simulation.running.initial = simulation.ledger().held();
+        simulation.running.initial = simulation.ledger().stored();
         Ok(simulation)
     }
 
@@ -173,14 +173,14 @@ impl Simulation {
     }
 
     fn check_walls(&self) -> Result<(), SetupError> {
-        for (place, wall) in self.walls.iter().enumerate() {
+        for (index, wall) in self.walls.iter().enumerate() {
             // Normals of rotated boxes come with rounding errors.
             let across = |&axis: &usize| wall.normal[axis].abs() > 1e-12;
             if let Some(axis) = (0..3).filter(|&axis| self.domain.period(axis).is_some()).find(across) {
-                return Err(SetupError::WallAcrossPeriod { wall: place, axis });
+                return Err(SetupError::WallAcrossPeriod { wall: index, axis });
             }
             if matches!(wall.motion, WallMotion::Servo(_)) && wall.area == FaceArea::Unknown {
-                return Err(SetupError::NoArea { wall: place });
+                return Err(SetupError::NoArea { wall: index });
             }
         }
         Ok(())
@@ -202,11 +202,11 @@ impl Simulation {
     /// Two centres farther apart than this cannot act on each other before the next list [m].
     fn search_radius(&self) -> f64 {
         let largest = self.particles.radius.iter().copied().fold(0.0, f64::max);
-        2.0 * largest + self.interactions.reach() + 2.0 * self.skin.thickest
+        2.0 * largest + self.interactions.interaction_range() + 2.0 * self.skin.thickest
     }
 
     /// The area over which a wall's force is spread [m²], where it is known.
-    pub fn wall_area(&self, place: usize) -> Option<f64> {
+    pub fn wall_area(&self, index: usize) -> Option<f64> {
         let extent = |extent: &Extent| match *extent {
             Extent::Given(length) => length,
             Extent::Between(one, other) => {
@@ -214,7 +214,7 @@ impl Simulation {
                 (other.point - one.point).dot(one.normal).abs()
             }
         };
-        match &self.walls[place].area {
+        match &self.walls[index].area {
             FaceArea::Unknown => None,
             FaceArea::Given(area) => Some(*area),
             FaceArea::Product([one, other]) => Some(extent(one) * extent(other)),
@@ -232,13 +232,13 @@ impl Simulation {
     }
 
     /// Force of the particles on a wall [N].
-    pub fn wall_force(&self, place: usize) -> Vector3 {
-        self.wall_states[place].force
+    pub fn wall_force(&self, index: usize) -> Vector3 {
+        self.wall_states[index].force
     }
 
     /// Velocity of a wall [m/s].
-    pub fn wall_velocity(&self, place: usize) -> Vector3 {
-        self.wall_states[place].velocity
+    pub fn wall_velocity(&self, index: usize) -> Vector3 {
+        self.wall_states[index].velocity
     }
 
     /// Space and its periods.
@@ -264,8 +264,8 @@ impl Simulation {
     /// Where the time goes since [`watch_phases`](Self::watch_phases) was called, `None` if it was not.
     pub fn phases(&self) -> Option<Phases> {
         let mut sum = self.phases?;
-        for (piece, outcome) in self.contacts.pieces().iter().zip(&self.outcomes) {
-            sum += piece.phases;
+        for (chunk, outcome) in self.contacts.chunks().iter().zip(&self.outcomes) {
+            sum += chunk.phases;
             sum.integration += outcome.seconds;
         }
         Some(sum)
@@ -278,9 +278,9 @@ impl Simulation {
 
     /// Memory of particles, candidates and contact memory [byte].
     pub fn memory_size(&self) -> usize {
-        // The skin keeps one more quad for each particle.
-        let rows = self.particles.len() * (Particles::BYTES + size_of::<Quad>());
-        rows + size_of_val(&self.particles.loads[..])
+        // The skin keeps one more packed vector for each particle.
+        let rows = self.particles.len() * (Particles::BYTES + size_of::<Packed4>());
+        rows + size_of_val(&self.particles.forces_and_torques[..])
             + self.contacts.memory_size()
             + self.memory.memory_size()
     }
@@ -292,7 +292,7 @@ impl Simulation {
 
     /// Number of threads that do the work.
     pub fn threads(&self) -> usize {
-        self.team.threads()
+        self.pool.threads()
     }
 }
 

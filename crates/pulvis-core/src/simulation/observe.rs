@@ -10,37 +10,37 @@ impl Simulation {
         let particles = &self.particles;
         let gravity = self.background.gravity;
         let [translation, rotation, discretisation, potential] =
-            self.team.sum_over(particles.len(), |rows| {
+            self.pool.sum_over(particles.len(), |rows| {
                 let mut sums = [0.0; 4];
                 for row in rows {
                     let (mass, inertia) = (particles.mass[row], particles.inertia(row));
-                    let load = &particles.loads[row];
+                    let load = &particles.forces_and_torques[row];
                     sums[0] += 0.5 * mass * particles.velocity[row].vector.norm_squared();
-                    sums[1] += 0.5 * inertia * particles.spin[row].vector.norm_squared();
+                    sums[1] += 0.5 * inertia * particles.angular_velocity[row].vector.norm_squared();
                     sums[2] += load.force.vector.norm_squared() / mass;
                     sums[2] += load.torque.vector.norm_squared() / inertia;
-                    sums[3] -= mass * gravity.dot(particles.place[row].vector);
+                    sums[3] -= mass * gravity.dot(particles.position[row].vector);
                 }
                 sums
             });
         let unknown = if self.accounting { 0.0 } else { f64::NAN };
-        let held = self.running.contacts;
+        let stored = self.running.contacts;
         let mut ledger = Ledger {
             kinetic_translation: translation,
             kinetic_rotation: rotation,
             kinetic_discretisation: -0.125 * self.time_step * self.time_step * discretisation,
-            elastic_normal: held.elastic_normal + unknown,
-            elastic_sliding: held.elastic_sliding + unknown,
-            elastic_rolling: held.elastic_rolling + unknown,
-            elastic_torsion: held.elastic_torsion + unknown,
-            adhesive: held.adhesive_potential + unknown,
+            elastic_normal: stored.elastic_normal + unknown,
+            elastic_sliding: stored.elastic_sliding + unknown,
+            elastic_rolling: stored.elastic_rolling + unknown,
+            elastic_torsion: stored.elastic_torsion + unknown,
+            adhesive: stored.adhesive_potential + unknown,
             gravity: potential + self.running.gravity_wrapped,
-            dissipated_plastic: held.dissipated_plastic + unknown,
-            dissipated_adhesive: held.dissipated_adhesive + unknown,
+            dissipated_plastic: stored.dissipated_plastic + unknown,
+            dissipated_adhesive: stored.dissipated_adhesive + unknown,
             dissipated_viscous: self.running.viscous + unknown,
-            dissipated_sliding: held.dissipated_sliding + unknown,
-            dissipated_rolling: held.dissipated_rolling + unknown,
-            dissipated_torsion: held.dissipated_torsion + unknown,
+            dissipated_sliding: stored.dissipated_sliding + unknown,
+            dissipated_rolling: stored.dissipated_rolling + unknown,
+            dissipated_torsion: stored.dissipated_torsion + unknown,
             dissipated_background: self.running.background,
             work_walls: self.wall_states.iter().map(|state| state.work_prescribed).sum(),
             work_servo: self.wall_states.iter().map(|state| state.work_servo).sum(),

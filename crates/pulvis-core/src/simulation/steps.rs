@@ -4,7 +4,7 @@ use pulvis_math::Vector3;
 
 use super::{Simulation, StepError};
 use crate::contacts::{Advance, Sweep};
-use crate::integrator::{Columns, Kicks, Step};
+use crate::integrator::{Columns, HalfKicks, Step};
 use crate::neighbours::Moved;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
@@ -44,17 +44,23 @@ impl Simulation {
 
     /// First half kick and drift.
     fn kick_and_drift(&mut self) {
-        let pieces = self.contacts.pieces();
+        let chunks = self.contacts.chunks();
         let (instructions, step) = (self.instructions, self.step_of_rows(self.time_step));
         let columns = Columns::of(&mut self.particles);
         let (background, timed) = (&self.background, self.phases.is_some());
-        self.team.for_each(&mut self.outcomes, |number, outcome| {
+        self.pool.for_each(&mut self.outcomes, |number, outcome| {
             let mut clock = Stopwatch::start(timed);
-            let rows = pieces[number].rows.clone();
-            // SAFETY: pieces have different rows.
+            let rows = chunks[number].rows.clone();
+            // SAFETY: chunks have different rows.
             outcome.kicked = unsafe {
-                let loads = columns.loads.range_mut(rows.clone());
-                instructions.run(Kicks::<false, true>::new(columns, rows, loads, background, step))
+                let forces_and_torques = columns.forces_and_torques.range_mut(rows.clone());
+                instructions.run(HalfKicks::<false, true>::new(
+                    columns,
+                    rows,
+                    forces_and_torques,
+                    background,
+                    step,
+                ))
             };
             outcome.drift_on(step.time_step);
             clock.lap(&mut outcome.seconds);
@@ -62,8 +68,8 @@ impl Simulation {
     }
 
     fn step_of_rows(&self, time_step: f64) -> Step {
-        let turning = self.interactions.models().any(|model| model.composition.has_resistance_dashpot());
-        Step { time_step, predicts_spins: turning || self.background.has_drag() }
+        let turning = self.interactions.models().any(|model| model.laws.has_resistance_dashpot());
+        Step { time_step, predicts_angular_velocities: turning || self.background.has_drag() }
     }
 
     /// Lists the candidates anew if particles have moved too far; otherwise tells the contacts by how much
@@ -81,15 +87,15 @@ impl Simulation {
         }
         if holds {
             let outcomes = &self.outcomes;
-            self.contacts.close_gaps(|piece| outcomes[piece].moved, walls);
+            self.contacts.close_gaps(|chunk| outcomes[chunk].moved, walls);
             return Ok(());
         }
-        let places = &self.particles.place;
-        if let Some(lost) = places.iter().position(|place| !place.vector.is_finite()) {
+        let positions = &self.particles.position;
+        if let Some(lost) = positions.iter().position(|position| !position.vector.is_finite()) {
             let id = self.particles.id[lost];
             return Err(StepError::Lost { id, step: self.step, time: self.time });
         }
-        self.skin.adapt(&self.particles.place, &self.team);
+        self.skin.adapt(&self.particles.position, &self.pool);
         self.renew_candidates();
         Ok(())
     }
@@ -103,40 +109,40 @@ impl Simulation {
 
     /// Looks how far the particles have really moved.
     fn survey(&mut self) {
-        let (pieces, skin, places) = (self.contacts.pieces(), &self.skin, &self.particles.place);
+        let (chunks, skin, positions) = (self.contacts.chunks(), &self.skin, &self.particles.position);
         let instructions = self.instructions;
-        self.team.for_each(&mut self.outcomes, |number, outcome| {
-            outcome.moved = skin.moved(pieces[number].rows.clone(), places, instructions);
+        self.pool.for_each(&mut self.outcomes, |number, outcome| {
+            outcome.moved = skin.moved(chunks[number].rows.clone(), positions, instructions);
         });
     }
 
     fn move_walls(&mut self) {
-        for place in 0..self.walls.len() {
-            if !self.walls[place].present {
+        for index in 0..self.walls.len() {
+            if !self.walls[index].present {
                 continue;
             }
-            let area = self.wall_area(place);
-            let since = self.time - self.wall_starts[place];
-            self.wall_states[place].advance(&mut self.walls[place], area, since, self.time_step);
+            let area = self.wall_area(index);
+            let since = self.time - self.wall_starts[index];
+            self.wall_states[index].advance(&mut self.walls[index], area, since, self.time_step);
         }
     }
 
     fn finish_walls(&mut self) {
-        for place in 0..self.walls.len() {
-            if !self.walls[place].present {
+        for index in 0..self.walls.len() {
+            if !self.walls[index].present {
                 continue;
             }
-            let area = self.wall_area(place);
-            let since = self.time - self.wall_starts[place];
-            let force = -self.on_particles[place];
-            self.wall_states[place].finish(&self.walls[place], force, area, since, self.time_step);
+            let area = self.wall_area(index);
+            let since = self.time - self.wall_starts[index];
+            let force = -self.on_particles[index];
+            self.wall_states[index].finish(&self.walls[index], force, area, since, self.time_step);
         }
     }
 
     /// Forces and torques of all contacts and of the background, and the second half kick; with
     /// `onwards` also the first half kick and the drift of the next step. `at_rest` no time has passed.
     ///
-    /// Answers with the drag's power [W]; each wall's force on the particles is left in its place.
+    /// Answers with the drag's power [W]; each wall's force on the particles is left in its index.
     fn forces_and_kick(&mut self, at_rest: bool, onwards: bool) -> f64 {
         self.walls_now.clear();
         for (wall, state) in self.walls.iter().zip(&self.wall_states) {
@@ -149,7 +155,7 @@ impl Simulation {
             timed: self.phases.is_some(),
             images: self.domain.images(),
             ledger: self.accounting,
-            held: !onwards,
+            stored: !onwards,
             instructions: self.instructions,
         };
         let step = self.step_of_rows(time_step);
@@ -157,23 +163,25 @@ impl Simulation {
         let (instructions, background) = (self.instructions, &self.background);
         let outcomes = Shared::new(&mut self.outcomes);
         let sweep = Sweep {
-            loads: columns.loads,
+            forces_and_torques: columns.forces_and_torques,
             moving: columns.moving(),
             walls: &self.walls_now,
             advance: &advance,
             keep: !onwards,
         };
-        self.contacts.sweep(&sweep, &self.team, |number, rows, loads| {
-            // SAFETY: each piece is finished once, and nobody reads its rows any more.
+        self.contacts.sweep(&sweep, &self.pool, |number, rows, forces_and_torques| {
+            // SAFETY: each chunk is finished once, and nobody reads its rows any more.
             unsafe {
                 let outcome = outcomes.get_mut(number);
                 let mut clock = Stopwatch::start(advance.timed);
                 if onwards {
-                    let kicks = Kicks::<true, true>::new(columns, rows, loads, background, step);
+                    let kicks =
+                        HalfKicks::<true, true>::new(columns, rows, forces_and_torques, background, step);
                     outcome.kicked = instructions.run(kicks);
                     outcome.drift_on(time_step);
                 } else {
-                    let kicks = Kicks::<true, false>::new(columns, rows, loads, background, step);
+                    let kicks =
+                        HalfKicks::<true, false>::new(columns, rows, forces_and_torques, background, step);
                     outcome.kicked = instructions.run(kicks);
                 }
                 clock.lap(&mut outcome.seconds);
@@ -191,7 +199,9 @@ impl Simulation {
         for (predicted, now) in particles.velocity_predicted.iter_mut().zip(&particles.velocity) {
             predicted.vector = now.vector;
         }
-        for (predicted, now) in particles.spin_predicted.iter_mut().zip(&particles.spin) {
+        for (predicted, now) in
+            particles.angular_velocity_predicted.iter_mut().zip(&particles.angular_velocity)
+        {
             predicted.vector = now.vector;
         }
         // No block is passed over: whatever was switched may act at once.

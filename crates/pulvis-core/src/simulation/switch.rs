@@ -6,7 +6,7 @@ use super::{SetupError, Simulation};
 use crate::background::Background;
 use crate::contacts::Interactions;
 use crate::phases::Phases;
-use crate::team::Team;
+use crate::thread_pool::ThreadPool;
 use crate::walls::WallMotion;
 
 /// Switching between stages. Every switch keeps the ledger: what the system holds more or less
@@ -28,7 +28,7 @@ impl Simulation {
     /// # Errors
     /// The system cannot start that many threads.
     pub fn set_threads(&mut self, threads: usize) -> Result<(), SetupError> {
-        self.team = Team::of(threads).map_err(|_| SetupError::Threads(threads))?;
+        self.pool = ThreadPool::of(threads).map_err(|_| SetupError::Threads(threads))?;
         Ok(())
     }
 
@@ -46,7 +46,7 @@ impl Simulation {
     /// Gives the energy ledger up, for good: contacts are faster without it. The accounts of contacts and
     /// what follows from them are no numbers from now on; kinetic energy and the potential of gravity
     /// stay.
-    pub fn give_up_ledger(&mut self) {
+    pub fn disable_ledger(&mut self) {
         self.accounting = false;
     }
 
@@ -68,26 +68,26 @@ impl Simulation {
     }
 
     /// Lets a wall move in another way from now on.
-    pub fn set_wall_motion(&mut self, place: usize, motion: WallMotion) {
+    pub fn set_wall_motion(&mut self, index: usize, motion: WallMotion) {
         // Dashpots see the wall's new velocity at once.
         self.switch(|simulation| {
-            simulation.walls[place].motion = motion;
-            simulation.wall_states[place].start(&motion);
-            simulation.wall_starts[place] = simulation.time;
+            simulation.walls[index].motion = motion;
+            simulation.wall_states[index].start(&motion);
+            simulation.wall_starts[index] = simulation.time;
         });
     }
 
     /// Takes a wall away, or puts it back where it stood, its motion beginning anew. A wall that is
     /// away does not move.
-    pub fn set_wall_present(&mut self, place: usize, present: bool) {
+    pub fn set_wall_present(&mut self, index: usize, present: bool) {
         self.switch(|simulation| {
-            if present && !simulation.walls[place].present {
-                simulation.wall_starts[place] = simulation.time;
-                simulation.wall_states[place].start(&simulation.walls[place].motion);
+            if present && !simulation.walls[index].present {
+                simulation.wall_starts[index] = simulation.time;
+                simulation.wall_states[index].start(&simulation.walls[index].motion);
             } else if !present {
-                simulation.wall_states[place].stop();
+                simulation.wall_states[index].stop();
             }
-            simulation.walls[place].present = present;
+            simulation.walls[index].present = present;
             simulation.renew_candidates();
         });
     }

@@ -43,7 +43,7 @@ pub enum FaceArea {
 pub enum Extent {
     /// A given length [m].
     Given(f64),
-    /// The distance between the two walls at these places in the list of walls.
+    /// The distance between the two walls at these indices in the list of walls.
     Between(usize, usize),
 }
 

@@ -15,10 +15,10 @@ pub fn vector(x: f64, y: f64, z: f64) -> Vector3 {
     Vector3::new(x, y, z)
 }
 
-/// A sphere of 2500 kg/m³ without spin.
+/// A sphere of 2500 kg/m³ without angular velocity.
 pub fn sphere(position: Vector3, velocity: Vector3, radius: f64) -> Particle {
     let mass = 4.0 / 3.0 * std::f64::consts::PI * 2500.0 * radius.powi(3);
-    Particle { material: 0, radius, mass, position, velocity, spin: Vector3::zero() }
+    Particle { material: 0, radius, mass, position, velocity, angular_velocity: Vector3::zero() }
 }
 
 /// An elastic contact of 1000 N/m.
@@ -37,19 +37,19 @@ pub fn luding() -> ContactModel {
     let interpolation = Interpolation::Linear;
     let mut model =
         ContactModel::frictionless(Luding { k1: 100.0, kp: 500.0, kc: 100.0, phi_f: 0.05, interpolation });
-    model.composition.sliding = Some(slider(100.0, 0.0, 0.5));
-    model.composition.rolling = Some(slider(50.0, 0.0, 0.1));
-    model.composition.torsion = Some(slider(50.0, 0.0, 0.1));
+    model.laws.sliding = Some(slider(100.0, 0.0, 0.5));
+    model.laws.rolling = Some(slider(50.0, 0.0, 0.1));
+    model.laws.torsion = Some(slider(50.0, 0.0, 0.1));
     model
 }
 
 /// The same with all dashpots, at some percent of critical.
 pub fn viscous_luding() -> ContactModel {
     let mut model = luding();
-    model.composition.viscosity = Viscosity::Constant(Constant { gamma_0: 2e-3 });
-    model.composition.sliding = Some(slider(100.0, 4e-4, 0.5));
-    model.composition.rolling = Some(slider(50.0, 2e-4, 0.1));
-    model.composition.torsion = Some(slider(50.0, 2e-4, 0.1));
+    model.laws.viscosity = Viscosity::Constant(Constant { gamma_0: 2e-3 });
+    model.laws.sliding = Some(slider(100.0, 4e-4, 0.5));
+    model.laws.rolling = Some(slider(50.0, 2e-4, 0.1));
+    model.laws.torsion = Some(slider(50.0, 2e-4, 0.1));
     model
 }
 
@@ -107,7 +107,7 @@ pub fn elastic_gas(count: usize) -> Setup {
 }
 
 /// Spheres of radii 0.7 to 1.3 `RADIUS` at random places in the cube from 0 to `edge`, which fall
-/// towards its middle, spin and jitter.
+/// towards its middle, angular velocity and jitter.
 pub fn implosion(count: usize, edge: f64, seed: u64, model: ContactModel) -> Setup {
     let mut random = random_stream(seed);
     let radii: Vec<f64> =
@@ -118,7 +118,7 @@ pub fn implosion(count: usize, edge: f64, seed: u64, model: ContactModel) -> Set
     let falling = |(place, radius): (Vector3, f64)| {
         let inwards = (middle - place) * (0.6 / edge);
         let mut particle = sphere(place, inwards + gaussian_vector(&mut random) * 0.05, radius);
-        particle.spin = gaussian_vector(&mut random) * 100.0;
+        particle.angular_velocity = gaussian_vector(&mut random) * 100.0;
         particle
     };
     setup(places.into_iter().zip(radii).map(falling).collect(), model)
@@ -151,7 +151,7 @@ pub fn gravity(strength: f64) -> Background {
 pub struct State {
     pub position: Vector3,
     pub velocity: Vector3,
-    pub spin: Vector3,
+    pub angular_velocity: Vector3,
 }
 
 /// All particles in the order of their ids.
@@ -160,13 +160,13 @@ pub fn states(simulation: &Simulation) -> Vec<State> {
     let state = |row: usize| State {
         position: particles.positions()[row],
         velocity: particles.velocities()[row],
-        spin: particles.spins()[row],
+        angular_velocity: particles.angular_velocities()[row],
     };
     particles.rows_by_id().into_iter().map(state).collect()
 }
 
 /// The largest difference of two systems: of positions over the radius, of velocities over 1 m/s and
-/// of spins over 1 m/s per radius. Positions are compared up to whole periods.
+/// of angular velocities over 1 m/s per radius. Positions are compared up to whole periods.
 pub fn difference(domain: &Domain, these: &[State], those: &[State]) -> f64 {
     assert_eq!(these.len(), those.len());
     let nearest = |mut separation: Vector3| {
@@ -180,7 +180,7 @@ pub fn difference(domain: &Domain, these: &[State], those: &[State]) -> f64 {
     let one = |(this, that): (&State, &State)| {
         let position = nearest(this.position - that.position).norm() / RADIUS;
         let velocity = (this.velocity - that.velocity).norm();
-        position.max(velocity).max((this.spin - that.spin).norm() * RADIUS)
+        position.max(velocity).max((this.angular_velocity - that.angular_velocity).norm() * RADIUS)
     };
     these.iter().zip(those).map(one).fold(0.0, f64::max)
 }

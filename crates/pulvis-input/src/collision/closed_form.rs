@@ -22,7 +22,7 @@ pub fn luding_pair(contact: &ContactModel, pair: &Pair) -> Option<LudingPair> {
         #[allow(unreachable_patterns)] // laws to come
         _ => return None,
     };
-    let parameters = match contact.composition.noncontact {
+    let parameters = match contact.laws.noncontact {
         NonContact::None(_) => parameters,
         NonContact::Reversible(law) => {
             parameters.with_adhesion(theory::NonContact::Reversible, law.f_a, law.kc_a)

@@ -1,7 +1,7 @@
 //! What differs from collision to collision.
 
 use super::speed::{Measure, Speed};
-use crate::contact::{ContactLaws, NamedLaw, entries};
+use crate::contact::{NamedContact, NamedLaw, entries};
 use crate::context::Reported;
 use crate::list::List;
 use crate::problem::Problem;
@@ -89,7 +89,7 @@ struct Sweepable {
 }
 
 /// Reads `[collision.sweep]`.
-pub(super) fn read_sweep(mut table: TableReader<'_>, contact: &ContactLaws) -> Result<Sweep, Reported> {
+pub(super) fn read_sweep(mut table: TableReader<'_>, contact: &NamedContact) -> Result<Sweep, Reported> {
     let name = table.required("variable", Text)?;
     let sweepable = find(&table, &name, contact)?;
     let listed = table.optional("values", List::of(sweepable.rule).at_least(1))?;
@@ -161,13 +161,13 @@ fn read_range(
 }
 
 /// The descriptions of a contact's laws.
-fn laws(contact: &ContactLaws) -> Vec<&'static LawEntry> {
+fn laws(contact: &NamedContact) -> Vec<&'static LawEntry> {
     let entry = |law: &NamedLaw| entries(law.role).into_iter().find(|entry| entry.name == law.name);
     contact.laws.iter().filter_map(entry).collect()
 }
 
 /// The variable called `name`.
-fn find(table: &TableReader<'_>, name: &str, contact: &ContactLaws) -> Result<Sweepable, Reported> {
+fn find(table: &TableReader<'_>, name: &str, contact: &NamedContact) -> Result<Sweepable, Reported> {
     if let Some((_, measure)) = Measure::ALL.into_iter().find(|(known, _)| *known == name) {
         let variable = match measure {
             Measure::Velocity => SweptVariable::Velocity,
@@ -206,7 +206,7 @@ fn find(table: &TableReader<'_>, name: &str, contact: &ContactLaws) -> Result<Sw
 }
 
 /// Reports a variable that does not exist.
-fn unknown(table: &TableReader<'_>, name: &str, contact: &ContactLaws) -> Reported {
+fn unknown(table: &TableReader<'_>, name: &str, contact: &NamedContact) -> Reported {
     let mut known: Vec<String> = Measure::ALL.iter().map(|(name, _)| (*name).to_owned()).collect();
     for entry in laws(contact) {
         let numbers =

@@ -1,7 +1,7 @@
 //! Contacts of material pairs, and whether every pair that can meet has one.
 
 use super::materials::Material;
-use crate::contact::{ContactLaws, NamedLaw, read_contact};
+use crate::contact::{NamedContact, NamedLaw, read_contact};
 use crate::context::Reported;
 use crate::problem::Problem;
 use crate::reader::TableReader;
@@ -71,7 +71,7 @@ pub(super) fn read_contacts(
                 let expected = "contacts between materials of particles, or of particles and walls";
                 return Err(table.refuse("", Problem::rule(found, expected)));
             }
-            let ContactLaws { model, laws } = read_contact(table)?;
+            let NamedContact { model, laws } = read_contact(table)?;
             Ok(Contact { materials: pair, model, laws })
         });
         match read {

@@ -37,7 +37,7 @@ pub struct VelocityPlan {
     /// Standard deviation of each component, Gaussian [m/s].
     pub standard_deviation: f64,
     /// Angular velocity of every particle [rad/s].
-    pub spin: Vector3,
+    pub angular_velocity: Vector3,
 }
 
 /// A group and the place where its arrangement stands, for checks that need the walls.
@@ -193,7 +193,7 @@ fn read_velocity(
     let mean = table.optional("mean", Vector::of(Dimension::VELOCITY));
     let standard_deviation =
         table.optional("standard_deviation", QuantityRule::of(Dimension::VELOCITY).at_least(0.0));
-    let spin = table.or("spin", Vector::of(Dimension::RATE), [0.0; 3]);
+    let angular_velocity = table.or("spin", Vector::of(Dimension::RATE), [0.0; 3]);
     let in_file = match arrangement {
         Some(Arrangement::File { grains, .. }) => grains.iter().all(|grain| grain.velocity.is_some()),
         _ => false,
@@ -214,6 +214,6 @@ fn read_velocity(
     Ok(VelocityPlan {
         mean: mean?.unwrap_or_default().into(),
         standard_deviation: standard_deviation?.unwrap_or(0.0),
-        spin: spin?.into(),
+        angular_velocity: angular_velocity?.into(),
     })
 }

@@ -26,7 +26,7 @@ impl Default for TimeStep {
 
 impl TimeStep {
     /// Steps in the shortest contact time where nothing is said [1]. Velocity-Verlet then errs by
-    /// (π/50)²/24 = 2e-4 in the frequency of the stiffest contact.
+    /// (π/50)²/24 = 2e-4 in the frequency of the max_stiffness contact.
     pub const DEFAULT_STEPS: f64 = 50.0;
     /// With fewer steps than this a contact is no longer resolved [1].
     pub const LEAST_STEPS: f64 = 10.0;

@@ -63,7 +63,7 @@ pub fn closed_form(case: &CollisionCase) -> Option<ClosedForm> {
 /// The coefficient of all dashpots if it is a constant [kg/s].
 fn dashpot(problem: &Problem<'_>) -> Option<f64> {
     let own = problem.contact.normal.accept(OwnDashpot(problem.pair));
-    let viscosity = problem.contact.composition.viscosity;
+    let viscosity = problem.contact.laws.viscosity;
     let largest = viscosity.largest_coefficient(&problem.pair);
     if largest == 0.0 {
         return Some(own);

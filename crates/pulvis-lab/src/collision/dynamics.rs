@@ -1,7 +1,7 @@
 //! The relative motion of two bodies along the line of their centres.
 
 use pulvis_contact::{
-    Composition, ContactMemory, ContactResponse, Memory, NormalLaw, Pair, PairMotion, resistance,
+    ContactKinematics, ContactLaws, ContactMemory, ContactResponse, Memory, NormalLaw, Pair, resistance,
 };
 use pulvis_math::Vector3;
 
@@ -22,7 +22,7 @@ pub(super) enum Phase {
 /// m_r d²δ/dt² = −f for one contact.
 pub(super) struct Dynamics<'c, N> {
     pub law: N,
-    pub composition: &'c Composition,
+    pub laws: &'c ContactLaws,
     pub pair: Pair,
 }
 
@@ -61,7 +61,7 @@ impl<N: NormalLaw> Dynamics<'_, N> {
     ) -> ContactResponse<f64> {
         let along = |value: f64| Vector3::new(value, 0.0, 0.0);
         let zero = along(0.0);
-        let motion = PairMotion {
+        let motion = ContactKinematics {
             normal: along(1.0),
             overlap: Self::within(phase, motion[0]),
             inverse_distance: 0.0,
@@ -69,12 +69,12 @@ impl<N: NormalLaw> Dynamics<'_, N> {
             radius_j: 0.0,
             velocity: along(-motion[1]),
             velocity_mid: along(-motion[1]),
-            spin_i: zero,
-            spin_j: zero,
-            spin_i_mid: zero,
-            spin_j_mid: zero,
+            angular_velocity_i: zero,
+            angular_velocity_j: zero,
+            angular_velocity_i_mid: zero,
+            angular_velocity_j_mid: zero,
         };
-        self.composition.respond::<f64, N, { resistance::NONE }>(&self.law, &self.pair, &motion, 0.0, memory)
+        self.laws.respond::<f64, N, { resistance::NONE }>(&self.law, &self.pair, &motion, 0.0, memory)
     }
 
     /// Rates of the motion with the memory as it stands: laws remember turning points only, and no
@@ -97,7 +97,7 @@ impl<N: NormalLaw> Dynamics<'_, N> {
     ) -> Branches {
         let overlap = Self::within(phase, overlap);
         let normal = self.law.branch(&self.pair, overlap.max(0.0), &memory.normal);
-        let noncontact = self.composition.noncontact.branch(overlap, memory.touched);
+        let noncontact = self.laws.noncontact.branch(overlap, memory.touched);
         Branches {
             numbers: (normal.0, noncontact.0),
             normal: normal.1,

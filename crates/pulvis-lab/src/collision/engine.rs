@@ -144,7 +144,7 @@ impl<'p, N: NormalLaw> Run<'p, N> {
             self.stop = Some(self.outcome(Regime::Stick));
             self.end_time = now.time + self.observation.time_after_sticking;
         }
-        let gone = now.overlap <= -self.problem.reach() && now.velocity < 0.0;
+        let gone = now.overlap <= -self.problem.interaction_range() && now.velocity < 0.0;
         self.over = gone || now.time >= self.end_time;
     }
 
@@ -174,7 +174,7 @@ impl<'p, N: NormalLaw> Run<'p, N> {
             stop_branch: (!rebound).then(|| self.branch(self.before.overlap)),
             restitution: if rebound { -self.now.velocity / self.problem.velocity } else { 0.0 },
             overlap_max: self.overlap_max,
-            overlap_end: if rebound { 0.0 - self.problem.reach() } else { stop },
+            overlap_end: if rebound { 0.0 - self.problem.interaction_range() } else { stop },
             contact_duration: self.opening_time.zip(self.touch_time).map(|(end, start)| end - start),
             energy_dissipated: ledger.dissipated(),
             energy_error: -ledger.closing_error() / before.max(ledger.scale),
@@ -184,7 +184,7 @@ impl<'p, N: NormalLaw> Run<'p, N> {
     /// The branch on which the bodies are, or that of the attraction where they are apart.
     fn branch(&self, overlap: f64) -> &'static str {
         if overlap <= 0.0 {
-            return self.problem.contact.composition.noncontact.branch(overlap, 1.0).1;
+            return self.problem.contact.laws.noncontact.branch(overlap, 1.0).1;
         }
         self.law.branch(&self.problem.pair, overlap, &self.memory(self.remembered())).1
     }
@@ -258,7 +258,7 @@ fn setup(problem: &Problem<'_>, time_step: f64, phase: f64) -> Setup {
         mass: sphere.mass,
         position: along(position),
         velocity: along(velocity),
-        spin: along(0.0),
+        angular_velocity: along(0.0),
     };
     let velocity = problem.velocity;
     let gap = phase * velocity * time_step - problem.start_overlap();

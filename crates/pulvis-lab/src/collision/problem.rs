@@ -32,14 +32,14 @@ impl<'c> Problem<'c> {
     }
 
     /// How far beyond touching the contact acts [m].
-    pub fn reach(&self) -> f64 {
-        self.contact.reach()
+    pub fn interaction_range(&self) -> f64 {
+        self.contact.interaction_range()
     }
 
     /// Where the bodies begin to feel each other on approach: an attraction that remembers touch is
     /// not felt before it [m].
     pub fn start_overlap(&self) -> f64 {
-        if self.contact.composition.noncontact.remembers_touch() { 0.0 } else { 0.0 - self.reach() }
+        if self.contact.laws.noncontact.remembers_touch() { 0.0 } else { 0.0 - self.interaction_range() }
     }
 
     /// The stiffness that belongs to the shortest time, m_r (π/t)² [N/m].

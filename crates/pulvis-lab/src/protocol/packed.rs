@@ -55,7 +55,7 @@ fn packing(particles: &[Particle], interactions: &Interactions) -> Option<Simula
                 mass,
                 position: Vector3::new(along(0), along(1), along(2)),
                 velocity: Vector3::zero(),
-                spin: Vector3::zero(),
+                angular_velocity: Vector3::zero(),
             });
         }
     }
@@ -88,7 +88,7 @@ mod tests {
             mass: 1e-6,
             position: Vector3::zero(),
             velocity: Vector3::zero(),
-            spin: Vector3::zero(),
+            angular_velocity: Vector3::zero(),
         };
         (0..count).map(particle).collect()
     }
@@ -121,7 +121,7 @@ mod tests {
         };
         let plain = ContactModel::frictionless(Linear::new(100.0, 0.0));
         let mut sliding = plain;
-        sliding.composition.sliding = Some(SpringSlider {
+        sliding.laws.sliding = Some(SpringSlider {
             stiffness: 10.0,
             dashpot: 0.0,
             dynamic_coefficient: 0.5,

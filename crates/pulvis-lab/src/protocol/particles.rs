@@ -27,7 +27,7 @@ pub(super) fn generate(scenario: &Scenario, domain: &Domain) -> Result<Vec<Parti
                 mass: 4.0 / 3.0 * PI * radius.powi(3) * density,
                 position,
                 velocity: velocity(group, number, &mut random),
-                spin: group.velocity.spin,
+                angular_velocity: group.velocity.angular_velocity,
             });
         }
     }

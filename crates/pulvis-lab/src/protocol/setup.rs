@@ -160,7 +160,7 @@ fn wall(scenario: &Scenario, plan: &WallPlan) -> Wall {
     wall
 }
 
-/// How far the sample reaches along an axis: a period, the distance of two box walls, or the box as
+/// How far the sample ranges along an axis: a period, the distance of two box walls, or the box as
 /// it was drawn where a face is open.
 pub(super) fn extent(scenario: &Scenario, axis: usize) -> Option<Extent> {
     if let Some(domain) = &scenario.domain

@@ -32,7 +32,8 @@ impl Snapshots {
         let ids: Vec<i64> = rows.iter().map(|&row| i64::from(particles.ids()[row])).collect();
         let materials: Vec<i64> = rows.iter().map(|&row| i64::from(particles.materials()[row])).collect();
         let radii: Vec<f64> = rows.iter().map(|&row| particles.radii()[row]).collect();
-        let [velocities, spins] = [vectors(particles.velocities()), vectors(particles.spins())];
+        let [velocities, angular_velocities] =
+            [vectors(particles.velocities()), vectors(particles.angular_velocities())];
         let [forces, torques] = [vectors(particles.forces()), vectors(particles.torques())];
         let coordination = contacts.coordination(ids.len());
         let positions = vectors(particles.positions());
@@ -41,7 +42,7 @@ impl Snapshots {
             Column::integer("type", &materials),
             Column::scalar("radius", &radii),
             Column::vector("v", &velocities),
-            Column::vector("omega", &spins),
+            Column::vector("omega", &angular_velocities),
             Column::vector("f", &forces),
             Column::vector("torque", &torques),
             Column::integer("coordination", &coordination),

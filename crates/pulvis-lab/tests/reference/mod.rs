@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use pulvis_contact::catalogue::Values;
-use pulvis_contact::{Composition, ContactModel, NonContact, Normal, Viscosity};
+use pulvis_contact::{ContactLaws, ContactModel, NonContact, Normal, Viscosity};
 use pulvis_input::collision::{Bodies, CollisionCase, Method, Sphere};
 
 /// Values of the papers' figures, computed by an independent program branch by branch with 30 digits.
@@ -56,8 +56,8 @@ impl Row {
         let noncontact = NonContact::build(law, &attraction).unwrap().unwrap();
         let gamma = Values::new().with("gamma_0", self.number("gamma0"));
         let viscosity = Viscosity::build("constant", &gamma).unwrap().unwrap();
-        let composition = Composition { noncontact, viscosity, ..Composition::default() };
-        ContactModel { normal, composition }
+        let laws = ContactLaws { noncontact, viscosity, ..ContactLaws::default() };
+        ContactModel { normal, laws }
     }
 
     pub fn bodies(&self) -> Bodies {

@@ -61,7 +61,7 @@ impl Work {
     /// Power that the contact gives to the bodies at their mid-step velocities [W].
     fn power(&self, i: &Kinematics, j: &Kinematics) -> f64 {
         self.force.dot(i.velocity_mid - j.velocity_mid)
-            + self.torques[0].dot(i.spin_mid)
-            + self.torques[1].dot(j.spin_mid)
+            + self.torques[0].dot(i.angular_velocity_mid)
+            + self.torques[1].dot(j.angular_velocity_mid)
     }
 }

@@ -23,7 +23,7 @@ pub struct Dance {
     /// Mean overlap and its amplitude [m]; a larger amplitude opens the contact.
     overlap: (f64, f64),
     axis: [Vector3; 3],
-    spins: [[Vector3; 2]; 2],
+    angular_velocities: [[Vector3; 2]; 2],
     twist: f64,
     phase: [f64; 4],
 }
@@ -46,13 +46,14 @@ impl Dance {
         let (body_i, body_j) = random_bodies(draw);
         let body_j = body_j.unwrap_or((3.0 * body_i.0, 1.5 * body_i.1));
         let pair = pair_of(body_i, Some(body_j));
-        let (scale, stiffest) = model.normal.accept(Scales(pair));
+        let (scale, max_stiffness) = model.normal.accept(Scales(pair));
         let depth = scale.min(0.05 * pair.harmonic_radius()) * draw.log_between(0.05, 0.8);
         // Slow enough for springs to follow, fast enough for dashpots to be felt.
-        let duration = 20.0 * (pair.reduced_mass() / stiffest).sqrt();
+        let duration = 20.0 * (pair.reduced_mass() / max_stiffness).sqrt();
         let slip = depth * draw.log_between(0.3, 10.0) / duration;
-        let mut spin = || draw.vector() * (slip / body_i.1);
-        let spins = [[spin(), spin()], [spin(), spin()]];
+        let mut angular_velocity = || draw.vector() * (slip / body_i.1);
+        let angular_velocities =
+            [[angular_velocity(), angular_velocity()], [angular_velocity(), angular_velocity()]];
         Self {
             pair,
             radius_i: body_i.1,
@@ -60,7 +61,7 @@ impl Dance {
             duration,
             overlap: (depth, opening * depth),
             axis: [draw.direction(), draw.vector() * 0.5, draw.vector() * 0.3],
-            spins,
+            angular_velocities,
             twist: draw.between(-1.0, 1.0) / duration,
             phase: std::array::from_fn(|_| draw.between(0.0, TAU)),
         }
@@ -84,7 +85,7 @@ impl Dance {
         (normal, rate.tangential_to(normal) * (1.0 / length))
     }
 
-    /// Positions, velocities and spins of i and j.
+    /// Positions, velocities and angular velocities of i and j.
     fn at(&self, time: f64) -> [(Vector3, Vector3, Vector3); 2] {
         let (normal, turning) = self.normal(time);
         let (wave, wave_rate) = self.wave(2.0, self.phase[2], time);
@@ -95,15 +96,15 @@ impl Dance {
         let (drift, drift_rate) = self.wave(0.5, self.phase[3], time);
         let center = self.axis[1] * (self.radius_i * drift);
         let center_rate = self.axis[1] * (self.radius_i * drift_rate);
-        // As one body the pair spins with the normal; what is added slips, rolls and twists.
+        // As one body the pair angular velocities with the normal; what is added slips, rolls and twists.
         let rigid = normal.cross(turning) + normal * self.twist;
-        let spin = |body: usize| {
-            let [first, second] = self.spins[body];
+        let angular_velocity = |body: usize| {
+            let [first, second] = self.angular_velocities[body];
             rigid + first * self.wave(1.0, self.phase[body], time).0 + second
         };
         [
-            (center + between * 0.5, center_rate + rate * 0.5, spin(0)),
-            (center - between * 0.5, center_rate - rate * 0.5, spin(1)),
+            (center + between * 0.5, center_rate + rate * 0.5, angular_velocity(0)),
+            (center - between * 0.5, center_rate - rate * 0.5, angular_velocity(1)),
         ]
     }
 
@@ -117,8 +118,8 @@ impl Dance {
             velocity: now[body].1,
             // The velocity that moves the body from the one position to the other.
             velocity_mid: (now[body].0 - before[body].0) * (1.0 / dt),
-            spin: now[body].2,
-            spin_mid: mid[body].2,
+            angular_velocity: now[body].2,
+            angular_velocity_mid: mid[body].2,
         })
     }
 }
@@ -130,6 +131,6 @@ impl NormalLawVisitor for Scales {
     type Output = (f64, f64);
     fn visit<N: NormalLaw>(self, law: N) -> (f64, f64) {
         let mut memory = <N::Memory<f64>>::default();
-        (law.respond(&self.0, 0.0, &mut memory).inverse_overlap_scale.recip(), law.stiffest(&self.0))
+        (law.respond(&self.0, 0.0, &mut memory).inverse_overlap_scale.recip(), law.max_stiffness(&self.0))
     }
 }

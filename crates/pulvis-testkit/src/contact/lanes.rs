@@ -1,16 +1,16 @@
 //! One text of the whole contact serves a number and eight numbers.
 
 use pulvis_contact::{
-    Composition, ContactMemory, ContactModel, ContactResponse, Memory, NormalLaw, NormalLawVisitor, Pair,
-    PairMotion, resistance,
+    ContactKinematics, ContactLaws, ContactMemory, ContactModel, ContactResponse, Memory, NormalLaw,
+    NormalLawVisitor, Pair, resistance,
 };
-use pulvis_math::{Lanes, Real, Vector3};
+use pulvis_math::{F64Array, Real, Vector3};
 
 use super::Dance;
 use crate::bodies::pair_motion;
 use crate::draw::Draw;
 
-type Eight = Lanes<8>;
+type Eight = F64Array<8>;
 
 const STEPS: usize = 40;
 
@@ -19,24 +19,24 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number(model: &ContactModel, draw
     // One time step for all.
     let duration = dances[0].duration;
     dances.iter_mut().for_each(|dance| dance.duration = duration);
-    model.normal.accept(Suite { composition: model.composition, dances });
+    model.normal.accept(Suite { laws: model.laws, dances });
 }
 
 struct Suite {
-    composition: Composition,
+    laws: ContactLaws,
     dances: Vec<Dance>,
 }
 
 impl NormalLawVisitor for Suite {
     type Output = ();
     fn visit<N: NormalLaw>(self, law: N) {
-        let Self { composition, dances } = self;
-        let pairs = Pair::<Eight>::from_lanes(|lane| dances[lane].pair);
+        let Self { laws, dances } = self;
+        let pairs = Pair::<Eight>::from_fn(|lane| dances[lane].pair);
         let dt = dances[0].duration / STEPS as f64;
         let mut memory = ContactMemory::<Eight, N::Memory<Eight>>::default();
         let mut memories = [ContactMemory::<f64, N::Memory<f64>>::default(); 8];
         for step in 0..=STEPS {
-            let motions: Vec<PairMotion<f64>> = dances
+            let motions: Vec<ContactKinematics<f64>> = dances
                 .iter()
                 .enumerate()
                 .map(|(lane, dance)| {
@@ -49,7 +49,7 @@ impl NormalLawVisitor for Suite {
                     motion
                 })
                 .collect();
-            let together = composition.respond::<Eight, N, { resistance::ALL }>(
+            let together = laws.respond::<Eight, N, { resistance::ALL }>(
                 &law,
                 &pairs,
                 &gathered(&motions),
@@ -57,30 +57,30 @@ impl NormalLawVisitor for Suite {
                 &mut memory,
             );
             for lane in 0..8 {
-                let alone = composition.respond::<f64, N, { resistance::ALL }>(
+                let alone = laws.respond::<f64, N, { resistance::ALL }>(
                     &law,
                     &dances[lane].pair,
                     &motions[lane],
                     dt,
                     &mut memories[lane],
                 );
-                assert_eq!(numbers(&together, lane), numbers(&alone, 0), "{law:?} {composition:?} {alone:?}");
-                assert_eq!(state(&memory, lane), state(&memories[lane], 0), "{law:?} {composition:?}");
+                assert_eq!(numbers(&together, lane), numbers(&alone, 0), "{law:?} {laws:?} {alone:?}");
+                assert_eq!(state(&memory, lane), state(&memories[lane], 0), "{law:?} {laws:?}");
             }
         }
     }
 }
 
-fn gathered(motions: &[PairMotion<f64>]) -> PairMotion<Eight> {
-    let number = |of: fn(&PairMotion<f64>) -> f64| Eight::from_lanes(|lane| of(&motions[lane]));
-    let vector = |of: fn(&PairMotion<f64>) -> Vector3| {
+fn gathered(motions: &[ContactKinematics<f64>]) -> ContactKinematics<Eight> {
+    let number = |of: fn(&ContactKinematics<f64>) -> f64| Eight::from_fn(|lane| of(&motions[lane]));
+    let vector = |of: fn(&ContactKinematics<f64>) -> Vector3| {
         Vector3::new(
-            Eight::from_lanes(|lane| of(&motions[lane]).x),
-            Eight::from_lanes(|lane| of(&motions[lane]).y),
-            Eight::from_lanes(|lane| of(&motions[lane]).z),
+            Eight::from_fn(|lane| of(&motions[lane]).x),
+            Eight::from_fn(|lane| of(&motions[lane]).y),
+            Eight::from_fn(|lane| of(&motions[lane]).z),
         )
     };
-    PairMotion {
+    ContactKinematics {
         normal: vector(|motion| motion.normal),
         overlap: number(|motion| motion.overlap),
         inverse_distance: number(|motion| motion.inverse_distance),
@@ -88,10 +88,10 @@ fn gathered(motions: &[PairMotion<f64>]) -> PairMotion<Eight> {
         radius_j: number(|motion| motion.radius_j),
         velocity: vector(|motion| motion.velocity),
         velocity_mid: vector(|motion| motion.velocity_mid),
-        spin_i: vector(|motion| motion.spin_i),
-        spin_j: vector(|motion| motion.spin_j),
-        spin_i_mid: vector(|motion| motion.spin_i_mid),
-        spin_j_mid: vector(|motion| motion.spin_j_mid),
+        angular_velocity_i: vector(|motion| motion.angular_velocity_i),
+        angular_velocity_j: vector(|motion| motion.angular_velocity_j),
+        angular_velocity_i_mid: vector(|motion| motion.angular_velocity_i_mid),
+        angular_velocity_j_mid: vector(|motion| motion.angular_velocity_j_mid),
     }
 }
 

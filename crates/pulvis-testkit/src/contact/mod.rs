@@ -1,7 +1,7 @@
 //! What every composition of laws promises, whichever laws and conventions it is made of.
 
 use pulvis_contact::catalogue::{Law, Role};
-use pulvis_contact::{Composition, ContactModel, Conventions, NonContact, Normal, Viscosity, friction};
+use pulvis_contact::{ContactLaws, ContactModel, Conventions, NonContact, Normal, Viscosity, friction};
 
 use crate::draw::Draw;
 use crate::for_each_case;
@@ -52,7 +52,7 @@ pub fn random_model(draw: &mut Draw) -> ContactModel {
     };
     let (sliding, rolling, torsion) =
         (resistance(Role::Sliding), resistance(Role::Rolling), resistance(Role::Torsion));
-    let composition = Composition { noncontact, viscosity, sliding, rolling, torsion, conventions };
+    let laws = ContactLaws { noncontact, viscosity, sliding, rolling, torsion, conventions };
     let normal = draw.one_of(Normal::ENTRIES);
-    ContactModel { normal: random_law(normal, draw, Normal::build), composition }
+    ContactModel { normal: random_law(normal, draw, Normal::build), laws }
 }

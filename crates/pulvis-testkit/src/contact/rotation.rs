@@ -38,12 +38,12 @@ pub fn rigid_rotation(
     let mut contact = contact(model, pair_of((1e-5, radius_i), Some((4e-6, radius_j))));
     let distance = radius_i + radius_j - overlap;
     let z = Vector3::new(0.0, 0.0, 1.0);
-    let at = |position: Vector3, velocity: Vector3, spin: Vector3| Kinematics {
+    let at = |position: Vector3, velocity: Vector3, angular_velocity: Vector3| Kinematics {
         position,
         velocity,
         velocity_mid: velocity,
-        spin,
-        spin_mid: spin,
+        angular_velocity,
+        angular_velocity_mid: angular_velocity,
     };
     let load = 0.5 * overlap;
     let time = 1.0;
@@ -57,19 +57,19 @@ pub fn rigid_rotation(
     let before = contact.springs();
 
     let dt = time / f64::from(steps);
-    let spin = axis * (angle / time);
+    let angular_velocity = axis * (angle / time);
     let turned = |step: u32, vector: Vector3| turn(axis, angle * f64::from(step) / f64::from(steps), vector);
     let (mut energies, mut lost) = (loaded.energies, 0.0);
     for step in 1..=steps {
         let (old, new) = (turned(step - 1, z * distance), turned(step, z * distance));
         let i = Kinematics {
             position: new,
-            velocity: spin.cross(new),
+            velocity: angular_velocity.cross(new),
             velocity_mid: (new - old) * (1.0 / dt),
-            spin,
-            spin_mid: spin,
+            angular_velocity,
+            angular_velocity_mid: angular_velocity,
         };
-        let j = at(Vector3::zero(), Vector3::zero(), spin);
+        let j = at(Vector3::zero(), Vector3::zero(), angular_velocity);
         energies = contact.respond(&pair_motion(radius_i, &i, Some((radius_j, &j))), dt).energies;
         lost += energies.dissipated_sliding + energies.dissipated_rolling + energies.dissipated_torsion;
     }

@@ -22,7 +22,7 @@ type Size<'a> = &'a dyn Fn(&(ContactResponse<f64>, Springs)) -> f64;
 struct View {
     /// What becomes of positions, velocities and forces.
     polar: Box<dyn Fn(Vector3) -> Vector3>,
-    /// What becomes of spins and torques.
+    /// What becomes of angular velocities and torques.
     axial: Box<dyn Fn(Vector3) -> Vector3>,
     /// What becomes of the torsion spring, n·(turn): a scalar that a mirror turns round.
     torsion: f64,
@@ -37,8 +37,8 @@ impl View {
             position: (self.polar)(body.position),
             velocity: (self.polar)(body.velocity),
             velocity_mid: (self.polar)(body.velocity_mid),
-            spin: (self.axial)(body.spin),
-            spin_mid: (self.axial)(body.spin_mid),
+            angular_velocity: (self.axial)(body.angular_velocity),
+            angular_velocity_mid: (self.axial)(body.angular_velocity_mid),
         });
         if self.exchanged { [seen[1], seen[0]] } else { seen }
     }
@@ -176,7 +176,7 @@ pub(super) fn a_common_speed_changes_nothing(model: &ContactModel, dance: &Dance
 }
 
 pub(super) fn momentum_is_only_exchanged(model: &ContactModel, dance: &Dance) {
-    if model.composition.conventions.lever_arm != LeverArm::Corrected {
+    if model.laws.conventions.lever_arm != LeverArm::Corrected {
         // Uncorrected arms add up to more than the distance: no such promise.
         return;
     }

@@ -12,12 +12,12 @@ pub(super) fn work_is_stored_or_dissipated<N: NormalLaw>(bench: &Bench<N>, draw:
     let mut turning_points: Vec<f64> = (0..SWEEPS - 1).map(|_| bench.span * draw.between(0.0, 1.0)).collect();
     turning_points.push(0.0);
     let law = bench.law;
-    let stiffest = law.stiffest(&bench.pair);
+    let max_stiffness = law.max_stiffness(&bench.pair);
     let step = bench.span / f64::from(STEPS);
     let scale = bench.force * bench.span;
     // The trapezoidal rule errs by step²/8 times the total variation of the slope. A sweep passes
-    // at most four branches, and at its end the slope may jump: five changes of at most 2 stiffest.
-    let integration = SWEEPS as f64 * 10.0 * stiffest * step * step / 8.0;
+    // at most four branches, and at its end the slope may jump: five changes of at most 2 max_stiffness.
+    let integration = SWEEPS as f64 * 10.0 * max_stiffness * step * step / 8.0;
     let round_off = 1e-12 * scale;
 
     let mut memory = <N::Memory<f64>>::default();

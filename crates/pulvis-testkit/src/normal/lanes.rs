@@ -1,25 +1,27 @@
 //! One text of the law serves a number and eight numbers.
 
 use pulvis_contact::{Memory, NormalLaw, NormalResponse, Pair};
-use pulvis_math::{Lanes, Real};
+use pulvis_math::{F64Array, Real};
 
 use crate::draw::Draw;
 use crate::parameters::random_pair;
 
-type Eight = Lanes<8>;
+type Eight = F64Array<8>;
 
 pub(super) fn lanes_give_the_bits_of_the_plain_number<N: NormalLaw>(law: N, draw: &mut Draw) {
     let pairs: Vec<Pair> = (0..8).map(|_| random_pair(draw)).collect();
-    let lanes = Pair::<Eight>::from_lanes(|lane| pairs[lane]);
+    let lanes = Pair::<Eight>::from_fn(|lane| pairs[lane]);
     let mut memories = [<N::Memory<f64>>::default(); 8];
     let mut memory = <N::Memory<Eight>>::default();
-    let reach = draw.log_between(1e-4, 0.3);
+    let interaction_range = draw.log_between(1e-4, 0.3);
     for _ in 0..40 {
         let overlaps: Vec<f64> = pairs
             .iter()
-            .map(|pair| if draw.chance(0.1) { 0.0 } else { pair.harmonic_radius() * reach * draw.unit() })
+            .map(|pair| {
+                if draw.chance(0.1) { 0.0 } else { pair.harmonic_radius() * interaction_range * draw.unit() }
+            })
             .collect();
-        let answer = law.respond(&lanes, Eight::from_lanes(|lane| overlaps[lane]), &mut memory);
+        let answer = law.respond(&lanes, Eight::from_fn(|lane| overlaps[lane]), &mut memory);
         for lane in 0..8 {
             let plain = law.respond(&pairs[lane], overlaps[lane], &mut memories[lane]);
             let mut of_lane = vec![0.0; <N::Memory<f64> as Memory<f64>>::COLUMNS];

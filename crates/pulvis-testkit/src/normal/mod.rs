@@ -57,9 +57,12 @@ impl<N: NormalLaw> Bench<N> {
         assert!(scale > 0.0 && scale.is_finite(), "{law:?}: the overlap scale is {scale}");
         // Around the law's own scale, where that is a possible overlap; smaller where not.
         let span = scale.min(0.3 * pair.harmonic_radius()) * draw.log_between(0.1, 3.0);
-        let stiffest = law.stiffest(&pair);
-        assert!(stiffest > 0.0 && stiffest.is_finite(), "{law:?}: the steepest slope is {stiffest}");
-        Self { law, pair, span, force: stiffest * span }
+        let max_stiffness = law.max_stiffness(&pair);
+        assert!(
+            max_stiffness > 0.0 && max_stiffness.is_finite(),
+            "{law:?}: the steepest slope is {max_stiffness}"
+        );
+        Self { law, pair, span, force: max_stiffness * span }
     }
 
     fn respond(&self, overlap: f64, memory: &mut N::Memory<f64>) -> NormalResponse {

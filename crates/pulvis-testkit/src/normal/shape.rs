@@ -14,7 +14,7 @@ pub(super) fn the_force_is_continuous_and_no_steeper_than_stiffest<N: NormalLaw>
     draw: &mut Draw,
 ) {
     let (memory, _) = bench.with_a_past(draw);
-    let stiffest = bench.law.stiffest(&bench.pair);
+    let max_stiffness = bench.law.max_stiffness(&bench.pair);
     let step = 1.3 * bench.span / f64::from(POINTS);
     let mut before = 0.0;
     for point in 0..=POINTS {
@@ -22,7 +22,7 @@ pub(super) fn the_force_is_continuous_and_no_steeper_than_stiffest<N: NormalLaw>
         let rise = (answer.force - before).abs();
         // A jump would exceed this; 1e-12 of the force scale is round-off.
         assert!(
-            point == 0 || rise <= stiffest * step * (1.0 + 1e-9) + 1e-12 * bench.force,
+            point == 0 || rise <= max_stiffness * step * (1.0 + 1e-9) + 1e-12 * bench.force,
             "{:?}: the force changes by {rise} N over {step} m, point {point}",
             bench.law
         );
@@ -57,7 +57,7 @@ pub(super) fn a_branch_has_one_name_and_no_kink<N: NormalLaw>(bench: &Bench<N>, 
         let bend = (three[0].0 - 2.0 * three[1].0 + three[2].0).abs();
         // Smooth branches bend little over 1/600 of the range: a kink of a tenth of the steepest slope
         // would show.
-        let allowed = 0.1 * bench.law.stiffest(&bench.pair) * step;
+        let allowed = 0.1 * bench.law.max_stiffness(&bench.pair) * step;
         assert!(!same || bend <= allowed, "{:?}: a kink inside branch {:?}", bench.law, three[1].1);
     }
 }

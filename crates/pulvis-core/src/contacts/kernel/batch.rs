@@ -1,11 +1,11 @@
 //! Blocks on their way through the loops: gathered, computed, added up.
 
-use pulvis_contact::{Composition, ContactEnergies, NormalLaw, Pair, PairMotion, resistance};
-use pulvis_math::{Octet, Quad, Row, Twin, Vector3};
+use pulvis_contact::{ContactEnergies, ContactKinematics, ContactLaws, NormalLaw, Pair, resistance};
+use pulvis_math::{Packed4, Simd4, Simd4Pair, Simd8, Vector3};
 
-use super::super::block::{Places, WIDTH};
-use super::super::layout::{Lane, Layout};
-use crate::particles::Load;
+use super::super::block::{LaneIndices, WIDTH};
+use super::super::layout::{F64x8, Layout};
+use crate::particles::ForceTorque;
 use crate::shared::Shared;
 
 /// Blocks that are gathered before any of them is computed, and computed before any of them is added
@@ -15,15 +15,15 @@ pub(super) const BATCH: usize = 2;
 
 /// A block that has been gathered.
 #[derive(Clone, Copy)]
-pub(super) struct Gathered<R> {
+pub(super) struct ContactInputs<R> {
     pub(super) block: usize,
     pub(super) pair: Pair<R>,
-    pub(super) motion: PairMotion<R>,
+    pub(super) motion: ContactKinematics<R>,
 }
 
 /// A block that has been computed.
 #[derive(Clone, Copy)]
-struct Answered<R> {
+struct ContactResponses<R> {
     force: Vector3<R>,
     torque_i: Vector3<R>,
     torque_j: Vector3<R>,
@@ -32,51 +32,51 @@ struct Answered<R> {
 /// What the blocks of a group are computed with.
 pub(super) struct Response<N> {
     pub(super) law: N,
-    pub(super) composition: Composition,
+    pub(super) laws: ContactLaws,
     pub(super) layout: Layout,
     /// The step that led to the present positions [s].
     pub(super) time_step: f64,
     /// Whether anything can be lost along the normal.
     pub(super) with_memory: bool,
     /// Whether what contacts hold is asked for, beside what they lose.
-    pub(super) held: bool,
+    pub(super) stored: bool,
 }
 
-/// Adds eight loads to the sums, one after the other: several lanes may have the same place.
-macro_rules! add_loads {
-    ($sums:expr, $places:expr, $sum:ident, $loads:expr) => {
+/// Adds eight forces and torques to the sums, one after the other: several lanes may have the same index.
+macro_rules! add_force_torques {
+    ($sums:expr, $slots:expr, $sum:ident, $forces_and_torques:expr) => {
         for lane in 0..WIDTH {
-            // SAFETY: places lie within the sums, as the caller vouches.
-            let quads = unsafe { $sums.get_mut_at_number($places[lane]) }.quads_mut();
-            R::Twin::load(quads).$sum($loads[lane]).store(quads);
+            // SAFETY: slots lie within the sums, as the caller vouches.
+            let packed = unsafe { $sums.get_mut_at_number($slots[lane]) }.packed_mut();
+            R::Simd4Pair::load(packed).$sum($forces_and_torques[lane]).store(packed);
         }
     };
 }
 
 /// The same for forces alone.
 macro_rules! add_forces {
-    ($sums:expr, $places:expr, $sum:ident, $forces:expr) => {
+    ($sums:expr, $slots:expr, $sum:ident, $forces:expr) => {
         for lane in 0..WIDTH {
-            // SAFETY: places lie within the sums, as the caller vouches.
-            let force = unsafe { &mut $sums.get_mut_at_number($places[lane]).force };
-            R::Row::load(force).$sum($forces[lane]).store(force);
+            // SAFETY: slots lie within the sums, as the caller vouches.
+            let force = unsafe { &mut $sums.get_mut_at_number($slots[lane]).force };
+            R::Simd4::load(force).$sum($forces[lane]).store(force);
         }
     };
 }
 
 /// Some blocks.
 pub(super) struct Batch<R> {
-    gathered: [Gathered<R>; BATCH],
-    answered: [Answered<R>; BATCH],
+    inputs: [ContactInputs<R>; BATCH],
+    responses: [ContactResponses<R>; BATCH],
     count: usize,
 }
 
-impl<R: Octet> Batch<R> {
+impl<R: Simd8> Batch<R> {
     /// No blocks yet.
     #[inline(always)]
     pub(super) fn new() -> Self {
         let (zero, none) = (R::zero(), Vector3::zero());
-        let motion = PairMotion {
+        let motion = ContactKinematics {
             normal: none,
             overlap: zero,
             inverse_distance: zero,
@@ -84,14 +84,14 @@ impl<R: Octet> Batch<R> {
             radius_j: zero,
             velocity: none,
             velocity_mid: none,
-            spin_i: none,
-            spin_j: none,
-            spin_i_mid: none,
-            spin_j_mid: none,
+            angular_velocity_i: none,
+            angular_velocity_j: none,
+            angular_velocity_i_mid: none,
+            angular_velocity_j_mid: none,
         };
-        let gathered = Gathered { block: 0, pair: Pair::from_sums(zero, zero), motion };
-        let answered = Answered { force: none, torque_i: none, torque_j: none };
-        Self { gathered: [gathered; BATCH], answered: [answered; BATCH], count: 0 }
+        let inputs = ContactInputs { block: 0, pair: Pair::from_sums(zero, zero), motion };
+        let responses = ContactResponses { force: none, torque_i: none, torque_j: none };
+        Self { inputs: [inputs; BATCH], responses: [responses; BATCH], count: 0 }
     }
 
     #[inline(always)]
@@ -102,9 +102,9 @@ impl<R: Octet> Batch<R> {
     /// Room for one more block. What nobody fills in of any block stays zero: what a contact has no use for
     /// is not written again and again.
     #[inline(always)]
-    pub(super) fn add(&mut self) -> &mut Gathered<R> {
+    pub(super) fn add(&mut self) -> &mut ContactInputs<R> {
         self.count += 1;
-        &mut self.gathered[self.count - 1]
+        &mut self.inputs[self.count - 1]
     }
 
     /// Computes all blocks, updates their `memory`, and adds their energies to `energies` if the ledger is
@@ -116,31 +116,34 @@ impl<R: Octet> Batch<R> {
     pub(super) unsafe fn respond<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(
         &mut self,
         response: &Response<N>,
-        memory: &mut [Lane],
+        memory: &mut [F64x8],
         energies: &mut ContactEnergies<R>,
     ) {
         let columns = response.layout.columns();
-        for place in 0..self.count {
-            let gathered = &self.gathered[place];
+        for index in 0..self.count {
+            let inputs = &self.inputs[index];
             // SAFETY: the caller's.
             let memory =
-                unsafe { memory.get_unchecked_mut(gathered.block * columns..(gathered.block + 1) * columns) };
+                unsafe { memory.get_unchecked_mut(inputs.block * columns..(inputs.block + 1) * columns) };
             let mut before = response.layout.load::<R, N::Memory<R>, RESISTANCE>(memory);
-            let answer = response.composition.respond::<R, N, RESISTANCE>(
+            let answer = response.laws.respond::<R, N, RESISTANCE>(
                 &response.law,
-                &gathered.pair,
-                &gathered.motion,
+                &inputs.pair,
+                &inputs.motion,
                 response.time_step,
                 &mut before,
             );
             response.layout.store::<R, N::Memory<R>, RESISTANCE>(&before, memory);
-            self.answered[place] =
-                Answered { force: answer.force, torque_i: answer.torque_i, torque_j: answer.torque_j };
+            self.responses[index] = ContactResponses {
+                force: answer.force,
+                torque_i: answer.torque_i,
+                torque_j: answer.torque_j,
+            };
             if LEDGER {
-                energies.add_lost::<RESISTANCE>(&answer.energies, response.with_memory);
+                energies.add_dissipated::<RESISTANCE>(&answer.energies, response.with_memory);
                 // What is held is not even computed where nobody asks for it.
-                if response.held {
-                    energies.add_held(&answer.energies);
+                if response.stored {
+                    energies.add_stored(&answer.energies);
                 }
             }
         }
@@ -154,24 +157,24 @@ impl<R: Octet> Batch<R> {
 
     /// A block, and the forces on its first bodies [N] once they have been computed.
     #[inline(always)]
-    pub(super) fn force(&self, place: usize) -> (usize, Vector3<R>) {
-        (self.gathered[place].block, self.answered[place].force)
+    pub(super) fn force(&self, index: usize) -> (usize, Vector3<R>) {
+        (self.inputs[index].block, self.responses[index].force)
     }
 
-    /// Adds the loads to `sums`, at the `places` of each block; the batch is empty afterwards.
+    /// Adds the forces and torques to `sums`, at the `slots` of each block; the batch is empty afterwards.
     ///
     /// # Safety
-    /// Every block has its places, and they lie within the sums.
+    /// Every block has its slots, and they lie within the sums.
     #[inline(always)]
     pub(super) unsafe fn add_up<const RESISTANCE: u8, const PAIRS: bool>(
         &mut self,
-        places: &[Places],
-        sums: Shared<'_, Load>,
+        slots: &[LaneIndices],
+        sums: Shared<'_, ForceTorque>,
     ) {
-        for place in 0..self.count {
-            let (block, answer) = (self.gathered[place].block, &self.answered[place]);
+        for index in 0..self.count {
+            let (block, answer) = (self.inputs[index].block, &self.responses[index]);
             // SAFETY: the caller's.
-            let [first, second] = unsafe { &places.get_unchecked(block).0 };
+            let [first, second] = unsafe { &slots.get_unchecked(block).0 };
             if RESISTANCE == resistance::NONE {
                 let forces = R::rows(columns_of(answer.force));
                 add_forces!(sums, first, plus, forces);
@@ -180,11 +183,11 @@ impl<R: Octet> Batch<R> {
                 }
                 continue;
             }
-            let loads = R::twins(columns_of(answer.force), columns_of(answer.torque_i));
-            add_loads!(sums, first, plus, loads);
+            let forces_and_torques = R::row_pairs(columns_of(answer.force), columns_of(answer.torque_i));
+            add_force_torques!(sums, first, plus, forces_and_torques);
             if PAIRS {
-                let loads = R::twins(columns_of(answer.force), columns_of(answer.torque_j));
-                add_loads!(sums, second, minus_plus, loads);
+                let forces_and_torques = R::row_pairs(columns_of(answer.force), columns_of(answer.torque_j));
+                add_force_torques!(sums, second, minus_plus, forces_and_torques);
             }
         }
         self.count = 0;
@@ -196,7 +199,7 @@ impl<R: Octet> Batch<R> {
 /// # Safety
 /// The rows lie within the column, and nobody writes them meanwhile.
 #[inline(always)]
-pub(super) unsafe fn gather<R: Octet>(column: Shared<'_, Quad>, rows: &[u32; WIDTH]) -> (Vector3<R>, R) {
+pub(super) unsafe fn gather<R: Simd8>(column: Shared<'_, Packed4>, rows: &[u32; WIDTH]) -> (Vector3<R>, R) {
     // SAFETY: the caller's.
     let [x, y, z, scalar] = R::columns(unsafe { load::<R>(column, rows) });
     (Vector3::new(x, y, z), scalar)
@@ -207,8 +210,8 @@ pub(super) unsafe fn gather<R: Octet>(column: Shared<'_, Quad>, rows: &[u32; WID
 /// # Safety
 /// The rows lie within the column, and nobody writes them meanwhile.
 #[inline(always)]
-pub(super) unsafe fn gather_apart<R: Octet>(
-    column: Shared<'_, Quad>,
+pub(super) unsafe fn gather_apart<R: Simd8>(
+    column: Shared<'_, Packed4>,
     [ones, others]: &[[u32; WIDTH]; 2],
 ) -> (Vector3<R>, R) {
     // SAFETY: the caller's.
@@ -221,24 +224,24 @@ pub(super) unsafe fn gather_apart<R: Octet>(
 /// # Safety
 /// The rows lie within the column, and nobody writes them meanwhile.
 #[inline(always)]
-unsafe fn load<R: Octet>(column: Shared<'_, Quad>, rows: &[u32; WIDTH]) -> [R::Row; WIDTH] {
+unsafe fn load<R: Simd8>(column: Shared<'_, Packed4>, rows: &[u32; WIDTH]) -> [R::Simd4; WIDTH] {
     // SAFETY: the caller's.
     unsafe {
         [
-            R::Row::load(column.get_at_number(rows[0])),
-            R::Row::load(column.get_at_number(rows[1])),
-            R::Row::load(column.get_at_number(rows[2])),
-            R::Row::load(column.get_at_number(rows[3])),
-            R::Row::load(column.get_at_number(rows[4])),
-            R::Row::load(column.get_at_number(rows[5])),
-            R::Row::load(column.get_at_number(rows[6])),
-            R::Row::load(column.get_at_number(rows[7])),
+            R::Simd4::load(column.get_at_number(rows[0])),
+            R::Simd4::load(column.get_at_number(rows[1])),
+            R::Simd4::load(column.get_at_number(rows[2])),
+            R::Simd4::load(column.get_at_number(rows[3])),
+            R::Simd4::load(column.get_at_number(rows[4])),
+            R::Simd4::load(column.get_at_number(rows[5])),
+            R::Simd4::load(column.get_at_number(rows[6])),
+            R::Simd4::load(column.get_at_number(rows[7])),
         ]
     }
 }
 
 /// The columns of a vector; the scalars are zero.
 #[inline(always)]
-fn columns_of<R: Octet>(vector: Vector3<R>) -> [R; 4] {
+fn columns_of<R: Simd8>(vector: Vector3<R>) -> [R; 4] {
     [vector.x, vector.y, vector.z, R::zero()]
 }

@@ -6,36 +6,36 @@ mod walls;
 
 use std::ops::Range;
 
-use pulvis_math::{InstructionSet, Quad, Vector3};
+use pulvis_math::{InstructionSet, Packed4, Vector3};
 
 use self::pairs::PairSweep;
 use self::walls::WallSweep;
 use super::block::{ContactGroup, Partner};
-use super::piece::Closed;
+use super::chunk::Approach;
 use crate::domain::Images;
-use crate::particles::Load;
+use crate::particles::ForceTorque;
 use crate::shared::Shared;
 
-/// The columns that contacts read. See [`Particles`](crate::Particles) for what the quads hold.
+/// The columns that contacts read. See [`Particles`](crate::Particles) for what the packed vectors hold.
 #[derive(Clone, Copy)]
-pub(crate) struct Moving<'a> {
-    pub(crate) place: Shared<'a, Quad>,
+pub(crate) struct KinematicColumns<'a> {
+    pub(crate) position: Shared<'a, Packed4>,
     /// Velocities at mid-step, which moved the positions.
-    pub(crate) velocity_mid: Shared<'a, Quad>,
+    pub(crate) velocity_mid: Shared<'a, Packed4>,
     /// Velocities at the time of the positions.
-    pub(crate) velocity: Shared<'a, Quad>,
-    pub(crate) spin_mid: Shared<'a, Quad>,
-    pub(crate) spin: Shared<'a, Quad>,
+    pub(crate) velocity: Shared<'a, Packed4>,
+    pub(crate) angular_velocity_mid: Shared<'a, Packed4>,
+    pub(crate) angular_velocity: Shared<'a, Packed4>,
 }
 
-impl Moving<'_> {
-    /// Has a row brought near, but for predicted spins, which few contacts look at.
+impl KinematicColumns<'_> {
+    /// Has a row brought near, but for predicted angular velocities, which few contacts look at.
     #[inline(always)]
     fn prefetch(&self, row: usize) {
-        self.place.prefetch(row);
+        self.position.prefetch(row);
         self.velocity_mid.prefetch(row);
         self.velocity.prefetch(row);
-        self.spin_mid.prefetch(row);
+        self.angular_velocity_mid.prefetch(row);
     }
 }
 
@@ -65,32 +65,32 @@ pub(crate) struct Advance {
     pub(crate) ledger: bool,
     /// Whether the energies that contacts hold are among them. What they lose has to be summed up in every step;
     /// what they hold is asked for at some times only.
-    pub(crate) held: bool,
+    pub(crate) stored: bool,
     /// What the processor can do.
     pub(crate) instructions: InstructionSet,
 }
 
-/// Computes a group's contacts, particle pairs or contacts with a wall, and adds their loads to `sums`.
+/// Computes a group's contacts, particle pairs or contacts with a wall, and adds their forces and torques to `sums`.
 ///
 /// # Safety
-/// The group's rows lie within the columns of `moving`, its walls within `walls`, its places of sums within `sums`, and nobody
+/// The group's rows lie within the columns of `moving`, its walls within `walls`, its indices of sums within `sums`, and nobody
 /// writes those rows meanwhile.
 pub(crate) unsafe fn sweep(
     group: &mut ContactGroup,
-    sums: &mut [Load],
-    moving: Moving<'_>,
+    sums: &mut [ForceTorque],
+    moving: KinematicColumns<'_>,
     walls: &[WallMotionNow],
     advance: &Advance,
-    closed: Closed,
-    ahead: Ahead<'_>,
+    approach: Approach,
+    prefetch: Prefetch<'_>,
 ) {
     let normal = group.model.normal;
     let partner = group.partner;
-    let closed = match partner {
-        Partner::Particle => closed.pairs,
-        Partner::Wall => closed.walls,
+    let approach = match partner {
+        Partner::Particle => approach.pairs,
+        Partner::Wall => approach.walls,
     };
-    let contacts = Loop { group, sums, moving, advance, closed, ahead };
+    let contacts = Loop { group, sums, moving, advance, approach, prefetch };
     match partner {
         Partner::Particle => normal.accept(PairSweep(contacts)),
         Partner::Wall => normal.accept(WallSweep(contacts, walls)),
@@ -100,12 +100,12 @@ pub(crate) unsafe fn sweep(
 /// What a loop works on.
 struct Loop<'a> {
     group: &'a mut ContactGroup,
-    sums: &'a mut [Load],
-    moving: Moving<'a>,
+    sums: &'a mut [ForceTorque],
+    moving: KinematicColumns<'a>,
     advance: &'a Advance,
     /// By how much a gap can have closed at the most since the candidates were listed [m].
-    closed: f64,
-    ahead: Ahead<'a>,
+    approach: f64,
+    prefetch: Prefetch<'a>,
 }
 
 /// Rows that are brought near in one round at the most.
@@ -113,29 +113,29 @@ const MOST_ROWS: usize = 16;
 
 /// What is likely to be needed next.
 #[derive(Debug, Default)]
-pub(crate) struct Ahead<'a> {
+pub(crate) struct Prefetch<'a> {
     /// Rows one behind the other.
     pub(crate) rows: Range<usize>,
     /// Rows here and there.
     pub(crate) halo: &'a [u32],
     /// Sums that are to be set to zero.
-    pub(crate) sums: &'a mut [Load],
+    pub(crate) sums: &'a mut [ForceTorque],
 }
 
-impl Ahead<'_> {
+impl Prefetch<'_> {
     /// How much of each to make ready in each of so many rounds.
     #[inline(always)]
     fn in_rounds(&self, rounds: usize) -> [usize; 3] {
         // Where there are few contacts rows are not waited for, and asking for many at once would be.
         let rows = self.rows.len().div_ceil(rounds).min(MOST_ROWS);
         let halo = self.halo.len().div_ceil(rounds).min(MOST_ROWS);
-        // Two quads in a cache line.
+        // Two packed vectors in a cache line.
         [rows.next_multiple_of(2), halo, self.sums.len().div_ceil(rounds)]
     }
 
     /// Has some of the rows brought near, and some of the sums set to zero.
     #[inline(always)]
-    fn make_ready(&mut self, moving: Moving<'_>, [rows, halo, sums]: [usize; 3]) {
+    fn make_ready(&mut self, moving: KinematicColumns<'_>, [rows, halo, sums]: [usize; 3]) {
         let end = (self.rows.start + rows).min(self.rows.end);
         for row in (self.rows.start..end).step_by(2) {
             moving.prefetch(row);
@@ -149,7 +149,7 @@ impl Ahead<'_> {
         let left = std::mem::take(&mut self.sums);
         let (near, later) = left.split_at_mut(sums.min(left.len()));
         for sum in near {
-            *sum = Load::default();
+            *sum = ForceTorque::default();
         }
         self.sums = later;
     }

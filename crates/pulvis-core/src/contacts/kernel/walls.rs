@@ -1,9 +1,9 @@
 //! Contacts with walls.
 
 use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, resistance};
-use pulvis_math::{Kernel, Mask, Octet, Vector3};
+use pulvis_math::{Kernel, Mask, Simd8, Vector3};
 
-use super::super::block::{QUAD, filled_lanes};
+use super::super::block::{PACKED4_NUMBERS, occupied_lanes};
 use super::batch::{Batch, Response, gather};
 use super::{Advance, Loop, WallMotionNow};
 use crate::shared::Shared;
@@ -15,8 +15,7 @@ impl NormalLawVisitor for WallSweep<'_> {
     type Output = ();
     fn visit<N: NormalLaw>(self, law: N) {
         let Self(contacts, walls) = self;
-        let (level, set) =
-            (contacts.group.model.composition.resistance_level(), contacts.advance.instructions);
+        let (level, set) = (contacts.group.model.laws.resistance_level(), contacts.advance.instructions);
         match level {
             resistance::NONE => set.run(WallLoop::<N, { resistance::NONE }> { law, contacts, walls }),
             resistance::SLIDING => set.run(WallLoop::<N, { resistance::SLIDING }> { law, contacts, walls }),
@@ -36,15 +35,15 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Octet>(self) {
-        let Self { law, contacts: Loop { group, sums, moving, advance, closed, .. }, walls } = self;
+    fn run<R: Simd8>(self) {
+        let Self { law, contacts: Loop { group, sums, moving, advance, approach, .. }, walls } = self;
         let sums = Shared::new(sums);
-        let (composition, advance) = (group.model.composition, *advance);
-        let turning_dashpots = composition.has_resistance_dashpot();
-        let reach = R::splat(-composition.noncontact.reach());
-        let Advance { time_step, held, .. } = advance;
-        let (layout, with_memory) = (group.layout, composition.remembers_normal_motion::<N>());
-        let response = Response { law, composition, layout, time_step, with_memory, held };
+        let (laws, advance) = (group.model.laws, *advance);
+        let turning_dashpots = laws.has_resistance_dashpot();
+        let interaction_range = R::splat(-laws.noncontact.interaction_range());
+        let Advance { time_step, stored, .. } = advance;
+        let (layout, with_memory) = (group.layout, laws.remembers_normal_motion::<N>());
+        let response = Response { law, laws, layout, time_step, with_memory, stored };
         let mut energies = ContactEnergies::<R>::default();
         group.wall_forces.fill(Vector3::zero());
         // The forces of one wall at a time.
@@ -56,43 +55,44 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
             while next < blocks && !batch.is_full() {
                 let block = next;
                 next += 1;
-                if group.gap[block] > closed && !group.live[block] {
+                if group.gap[block] > approach && !group.active[block] {
                     continue;
                 }
                 let [rows, [wall, ..]] = &group.rows[block].0;
-                let wall = walls[(wall / QUAD) as usize];
+                let wall = walls[(wall / PACKED4_NUMBERS) as usize];
                 let normal = Vector3::<R>::splat(wall.normal);
                 // SAFETY (here and below): rows lie within the columns, as the caller of `sweep` vouches.
-                let (centre, radius) = unsafe { gather::<R>(moving.place, rows) };
+                let (centre, radius) = unsafe { gather::<R>(moving.position, rows) };
                 let overlap = radius - (centre.dot(normal) - R::splat(wall.offset));
-                let valid = filled_lanes::<R>(group.filled[block]);
-                let overlap = R::select(valid, overlap, reach + reach - radius);
-                let acts = overlap.gt(reach).any();
-                if !acts && !group.live[block] {
+                let valid = occupied_lanes::<R>(group.occupancy[block]);
+                let overlap = R::select(valid, overlap, interaction_range + interaction_range - radius);
+                let acts = overlap.gt(interaction_range).any();
+                if !acts && !group.active[block] {
                     continue;
                 }
-                group.live[block] = acts;
+                group.active[block] = acts;
                 let (mid, inverse_mass) = unsafe { gather::<R>(moving.velocity_mid, rows) };
                 let (velocity, inverse_radius) = unsafe { gather::<R>(moving.velocity, rows) };
                 // What a wall has none of stays zero.
-                let gathered = batch.add();
-                gathered.block = block;
-                gathered.pair = Pair::wall_from_inverses(inverse_mass, inverse_radius);
-                let motion = &mut gathered.motion;
+                let inputs = batch.add();
+                inputs.block = block;
+                inputs.pair = Pair::wall_from_inverses(inverse_mass, inverse_radius);
+                let motion = &mut inputs.motion;
                 (motion.normal, motion.overlap, motion.radius_i) = (normal, overlap, radius);
                 motion.velocity = velocity - Vector3::splat(wall.velocity);
                 motion.velocity_mid = mid - Vector3::splat(wall.velocity_mid);
                 if RESISTANCE != resistance::NONE {
-                    motion.spin_i_mid = unsafe { gather::<R>(moving.spin_mid, rows) }.0;
+                    motion.angular_velocity_i_mid =
+                        unsafe { gather::<R>(moving.angular_velocity_mid, rows) }.0;
                     if turning_dashpots {
-                        motion.spin_i = unsafe { gather::<R>(moving.spin, rows) }.0;
+                        motion.angular_velocity_i = unsafe { gather::<R>(moving.angular_velocity, rows) }.0;
                     }
                 }
             }
             // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.
             unsafe { batch.respond::<N, RESISTANCE, true>(&response, &mut group.memory, &mut energies) };
-            for place in 0..batch.len() {
-                let (block, force) = batch.force(place);
+            for index in 0..batch.len() {
+                let (block, force) = batch.force(index);
                 let wall = group.second_row(block, 0) as usize;
                 if wall != at_wall {
                     group.wall_forces[at_wall] += sum_of(total);
@@ -104,12 +104,12 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
             unsafe { batch.add_up::<RESISTANCE, false>(&group.sums, sums) };
         }
         group.wall_forces[at_wall] += sum_of(total);
-        group.energies = energies.to_lanes();
+        group.energies = energies.to_array();
     }
 }
 
 /// The sum of the vectors in all lanes.
 #[inline(always)]
-fn sum_of<R: Octet>(vectors: Vector3<R>) -> Vector3 {
+fn sum_of<R: Simd8>(vectors: Vector3<R>) -> Vector3 {
     Vector3::new(vectors.x.sum_lanes(), vectors.y.sum_lanes(), vectors.z.sum_lanes())
 }

@@ -1,6 +1,6 @@
 //! Which particles share a level of the grid.
 
-use pulvis_math::{Quad, Vector3};
+use pulvis_math::{Packed4, Vector3};
 
 /// Classes of sizes at the most: the finest takes in whatever is finer still.
 const MOST: usize = 24;
@@ -30,36 +30,36 @@ impl Classes {
     /// Sorts particles into classes, in each of which sizes differ by less than a factor of two. What
     /// counts as size is the radius and half the `margin` [m]: that is what cells must be wide enough
     /// for.
-    pub(super) fn of(places: &[Quad], margin: f64) -> Self {
+    pub(super) fn of(positions: &[Packed4], margin: f64) -> Self {
         let half_margin = 0.5 * margin;
-        let largest = places.iter().map(|place| place.scalar).fold(0.0, f64::max) + half_margin;
+        let largest = positions.iter().map(|position| position.scalar).fold(0.0, f64::max) + half_margin;
         let mut halved = [Class::empty(); MOST];
-        let mut of_row = Vec::with_capacity(places.len());
-        for &Quad { vector: position, scalar: radius } in places {
+        let mut of_row = Vec::with_capacity(positions.len());
+        for &Packed4 { vector: position, scalar: radius } in positions {
             let halvings = whole_halvings(largest / (radius + half_margin));
             of_row.push(halvings as u8);
             halved[halvings].take_in(position, radius);
         }
         let mut list = Vec::new();
-        let mut places = [0; MOST];
+        let mut class_of_halvings = [0; MOST];
         for halvings in (0..MOST).rev().filter(|&halvings| halved[halvings].count > 0) {
-            places[halvings] = list.len() as u8;
+            class_of_halvings[halvings] = list.len() as u8;
             list.push(halved[halvings]);
         }
-        for place in &mut of_row {
-            *place = places[usize::from(*place)];
+        for class in &mut of_row {
+            *class = class_of_halvings[usize::from(*class)];
         }
         Self { list, of_row }
     }
 
     /// Centres [m] of the particles of a class.
-    pub(super) fn members<'a>(
+    pub(super) fn workers<'a>(
         &'a self,
         class: usize,
-        places: &'a [Quad],
+        positions: &'a [Packed4],
     ) -> impl Iterator<Item = Vector3> + 'a {
-        let of_class = move |&(_, &other): &(&Quad, &u8)| usize::from(other) == class;
-        places.iter().zip(&self.of_row).filter(of_class).map(|(place, _)| place.vector)
+        let of_class = move |&(_, &other): &(&Packed4, &u8)| usize::from(other) == class;
+        positions.iter().zip(&self.of_row).filter(of_class).map(|(position, _)| position.vector)
     }
 }
 

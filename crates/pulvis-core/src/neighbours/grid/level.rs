@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use pulvis_math::Vector3;
 
-use super::bricks::Bricks;
+use super::cell_blocks::CellBlocks;
 use super::classes::Class;
 use crate::domain::Domain;
 
@@ -18,7 +18,7 @@ pub(super) struct Level {
     pub(super) largest: f64,
     /// Number of its first cell among those of all levels.
     first_cell: u32,
-    bricks: Bricks,
+    cell_blocks: CellBlocks,
     lower: [f64; 3],
     inverse_width: [f64; 3],
     periodic: [bool; 3],
@@ -26,10 +26,10 @@ pub(super) struct Level {
     bounds: [[f64; 2]; 3],
 }
 
-/// Places of cells along each axis: the first and how many there are, around the end of periodic axes.
+/// LaneIndices of cells along each axis: the first and how many there are, around the end of periodic axes.
 pub(super) type Touched = [(u32, u32); 3];
 
-/// What a place along an axis and those beside it add to the number of a cell.
+/// What a coordinate along an axis and those beside it add to the number of a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beside {
     terms: [u32; 3],
@@ -43,7 +43,7 @@ impl Beside {
     }
 }
 
-/// Cells per particle at the most, those included that are there only to fill bricks up: fragments
+/// Cells per particle at the most, those included that are there only to fill cell_blocks up: fragments
 /// that fly apart must not make the grid grow with the volume that they span.
 const CELLS_PER_PARTICLE: u64 = 8;
 /// So few cells are no burden.
@@ -55,11 +55,11 @@ const SAMPLE: usize = 4096;
 
 impl Level {
     /// The level of a class, with cells wide enough for pairs up to `margin` [m] beyond touching;
-    /// `members` are its centres [m], `first` its first cell and row.
+    /// `workers` are its centres [m], `first` its first cell and row.
     pub(super) fn new<Members: Iterator<Item = Vector3>>(
         domain: &Domain,
         class: &Class,
-        members: impl Fn() -> Members,
+        workers: impl Fn() -> Members,
         margin: f64,
         first: (u32, u32),
     ) -> Self {
@@ -74,7 +74,7 @@ impl Level {
         let mut cells = cells_within(spans, edge, most);
         if cells.is_none() {
             let step = class.count as usize / SAMPLE + 1;
-            let sample: Vec<Vector3> = members().step_by(step).collect();
+            let sample: Vec<Vector3> = workers().step_by(step).collect();
             for axis in (0..3).filter(|&axis| !periodic[axis]) {
                 spans[axis] = crowded(&sample, axis, bounds[axis]);
             }
@@ -92,7 +92,7 @@ impl Level {
             rows: first.1..first.1 + class.count,
             largest: class.largest,
             first_cell: first.0,
-            bricks: Bricks::new(cells),
+            cell_blocks: CellBlocks::new(cells),
             lower: spans.map(|[lower, _]| lower),
             inverse_width: [0, 1, 2].map(per_length),
             periodic,
@@ -102,25 +102,28 @@ impl Level {
 
     /// One past the number of the last cell.
     pub(super) fn end_of_cells(&self) -> u32 {
-        self.first_cell + self.bricks.total()
+        self.first_cell + self.cell_blocks.total()
     }
 
     /// Place of the cell along each axis that a centre [m] is in.
     #[inline(always)]
-    pub(super) fn places_at(&self, position: Vector3) -> [u32; 3] {
+    pub(super) fn cell_coordinates_at(&self, position: Vector3) -> [u32; 3] {
         let along = |axis: usize| {
             // Conversion cuts off at zero what lies below; round-off may put a wrapped particle on the
             // upper face.
-            let place = (position[axis] - self.lower[axis]) * self.inverse_width[axis];
-            (place as u32).min(self.bricks.along(axis) - 1)
+            let along = (position[axis] - self.lower[axis]) * self.inverse_width[axis];
+            (along as u32).min(self.cell_blocks.along(axis) - 1)
         };
         [along(0), along(1), along(2)]
     }
 
-    /// Number of the cell at a place along each axis.
+    /// Number of the cell at a coordinate along each axis.
     #[inline(always)]
     pub(super) fn number(&self, [x, y, z]: [u32; 3]) -> u32 {
-        self.first_cell + self.bricks.term(0, x) + self.bricks.term(1, y) + self.bricks.term(2, z)
+        self.first_cell
+            + self.cell_blocks.term(0, x)
+            + self.cell_blocks.term(1, y)
+            + self.cell_blocks.term(2, z)
     }
 
     /// Number of the first cell.
@@ -129,25 +132,25 @@ impl Level {
         self.first_cell
     }
 
-    /// A place along an axis and those beside it, each once: with few cells along a periodic axis both
-    /// directions lead to the same place.
+    /// A coordinate along an axis and those beside it, each once: with few cells along a periodic axis both
+    /// directions lead to the same coordinate.
     #[inline(always)]
-    pub(super) fn beside(&self, axis: usize, place: u32) -> Beside {
-        let cells = self.bricks.along(axis);
-        let (places, count) = if 0 < place && place + 1 < cells {
-            ([place - 1, place, place + 1], 3)
+    pub(super) fn beside(&self, axis: usize, coordinate: u32) -> Beside {
+        let cells = self.cell_blocks.along(axis);
+        let (coordinates, count) = if 0 < coordinate && coordinate + 1 < cells {
+            ([coordinate - 1, coordinate, coordinate + 1], 3)
         } else if cells <= 3 && self.periodic[axis] {
             ([0, 1, 2], cells)
         } else if self.periodic[axis] {
-            let (before, after) = (place.checked_sub(1), place + 1);
-            ([before.unwrap_or(cells - 1), place, if after < cells { after } else { 0 }], 3)
+            let (before, after) = (coordinate.checked_sub(1), coordinate + 1);
+            ([before.unwrap_or(cells - 1), coordinate, if after < cells { after } else { 0 }], 3)
         } else {
-            let first = place.saturating_sub(1);
+            let first = coordinate.saturating_sub(1);
             ([first, first + 1, 0], cells.min(2))
         };
         let mut terms = [0; 3];
-        for (term, place) in terms.iter_mut().zip(places).take(count as usize) {
-            *term = self.bricks.term(axis, place);
+        for (term, coordinate) in terms.iter_mut().zip(coordinates).take(count as usize) {
+            *term = self.cell_blocks.term(axis, coordinate);
         }
         Beside { terms, count: count as usize }
     }
@@ -155,16 +158,16 @@ impl Level {
     /// Cells that may hold centres less than `reach` [m] away from `position` along each axis; none
     /// where there cannot be any.
     #[inline(always)]
-    pub(super) fn touched(&self, position: Vector3, reach: f64) -> Option<Touched> {
+    pub(super) fn touched(&self, position: Vector3, interaction_range: f64) -> Option<Touched> {
         let mut touched = [(0, 0); 3];
         for axis in 0..3 {
-            let (low, high) = (position[axis] - reach, position[axis] + reach);
+            let (low, high) = (position[axis] - interaction_range, position[axis] + interaction_range);
             if high < self.bounds[axis][0] || low > self.bounds[axis][1] {
                 return None;
             }
-            let place = |at: f64| floor((at - self.lower[axis]) * self.inverse_width[axis]);
-            let (first, last) = (place(low), place(high));
-            let cells = i64::from(self.bricks.along(axis));
+            let coordinate = |at: f64| floor((at - self.lower[axis]) * self.inverse_width[axis]);
+            let (first, last) = (coordinate(low), coordinate(high));
+            let cells = i64::from(self.cell_blocks.along(axis));
             touched[axis] = if !self.periodic[axis] {
                 let (first, last) = (first.clamp(0, cells - 1), last.clamp(0, cells - 1));
                 (first as u32, (last - first + 1) as u32)
@@ -182,7 +185,7 @@ impl Level {
     /// Number of cells along an axis.
     #[inline(always)]
     pub(super) fn along(&self, axis: usize) -> u32 {
-        self.bricks.along(axis)
+        self.cell_blocks.along(axis)
     }
 }
 
@@ -199,7 +202,7 @@ fn cells_within(spans: [[f64; 2]; 3], width: f64, most: f64) -> Option<[u32; 3]>
     // What is no number counts as one cell.
     let along = |widths: f64| if widths >= 1.0 { widths.min(1e9).floor() } else { 1.0 };
     let cells = spans.map(|[lower, upper]| along((upper - lower) / width));
-    let padded = cells.map(Bricks::padded);
+    let padded = cells.map(CellBlocks::padded);
     (padded[0] * padded[1] * padded[2] <= most).then(|| cells.map(|count| count as u32))
 }
 

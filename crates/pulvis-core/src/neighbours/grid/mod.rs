@@ -1,24 +1,24 @@
 //! Linked cells in levels, one for each class of sizes, by counting sort.
 
-mod bricks;
+mod cell_blocks;
 mod classes;
 mod level;
 mod search;
 #[cfg(test)]
 mod tests;
 
-use pulvis_math::Quad;
+use pulvis_math::Packed4;
 
 use self::classes::Classes;
 use self::level::Level;
-pub(crate) use self::search::Stretch;
+pub(crate) use self::search::RowRangePair;
 use crate::counting_sort::counting_sort;
 use crate::domain::Domain;
 
 /// Particles sorted into levels by size, finest first, and in each level into cells that are wide
 /// enough for its largest particle.
 ///
-/// Cells for the largest of all would each hold a crowd of small ones, all of them candidates of each
+/// Cells for the largest of all would each hold a tile of small ones, all of them candidates of each
 /// other. Here a pair of unlike sizes is found from the smaller side, which looks into the few cells of
 /// the coarser level within its reach.
 #[derive(Clone, Debug)]
@@ -32,22 +32,22 @@ pub(crate) struct CellGrid {
 
 impl CellGrid {
     /// Sorts rows by level, then by cell, then by row. Pairs will be found up to `margin` [m] beyond
-    /// touching: the reach of attraction and the skin. `places` are centres [m], wrapped into the domain, and radii
+    /// touching: the reach of attraction and the skin. `positions` are centres [m], wrapped into the domain, and radii
     /// in m. Answers also with the order: row k is to become what was row `order[k]`.
-    pub(crate) fn sort(domain: &Domain, places: &[Quad], margin: f64) -> (Self, Vec<u32>) {
-        let classes = Classes::of(places, margin);
+    pub(crate) fn sort(domain: &Domain, positions: &[Packed4], margin: f64) -> (Self, Vec<u32>) {
+        let classes = Classes::of(positions, margin);
         let mut levels: Vec<Level> = Vec::with_capacity(classes.list.len());
-        for place in 0..classes.list.len() {
+        for index in 0..classes.list.len() {
             let (first_cell, first_row) =
                 levels.last().map_or((0, 0), |finer| (finer.end_of_cells(), finer.rows.end));
-            let members = || classes.members(place, places);
-            levels.push(Level::new(domain, &classes.list[place], members, margin, (first_cell, first_row)));
+            let workers = || classes.workers(index, positions);
+            levels.push(Level::new(domain, &classes.list[index], workers, margin, (first_cell, first_row)));
         }
-        let number = |(place, &class): (&Quad, &u8)| {
+        let number = |(position, &class): (&Packed4, &u8)| {
             let level = &levels[usize::from(class)];
-            level.number(level.places_at(place.vector))
+            level.number(level.cell_coordinates_at(position.vector))
         };
-        let cells: Vec<u32> = places.iter().zip(&classes.of_row).map(number).collect();
+        let cells: Vec<u32> = positions.iter().zip(&classes.of_row).map(number).collect();
         let count = levels.last().map_or(0, Level::end_of_cells);
         let (mut starts, mut order) = (Vec::new(), Vec::new());
         counting_sort(&cells, count as usize, &mut starts, &mut order);

@@ -12,22 +12,22 @@ struct Sorted {
     grid: CellGrid,
     order: Vec<u32>,
     domain: Domain,
-    places: Vec<Quad>,
+    positions: Vec<Packed4>,
     margin: f64,
 }
 
 impl Sorted {
     fn new(domain: Domain, spheres: &[(Vector3, f64)], margin: f64) -> Self {
-        let quad = |&(position, radius): &(Vector3, f64)| Quad::new(domain.wrapped(position), radius);
-        let places: Vec<Quad> = spheres.iter().map(quad).collect();
-        let (grid, order) = CellGrid::sort(&domain, &places, margin);
-        let places = order.iter().map(|&row| places[row as usize]).collect();
-        Self { grid, domain, places, order, margin }
+        let packed = |&(position, radius): &(Vector3, f64)| Packed4::new(domain.wrapped(position), radius);
+        let positions: Vec<Packed4> = spheres.iter().map(packed).collect();
+        let (grid, order) = CellGrid::sort(&domain, &positions, margin);
+        let positions = order.iter().map(|&row| positions[row as usize]).collect();
+        Self { grid, domain, positions, order, margin }
     }
 
     fn pairs_of(&self, rows: std::ops::Range<u32>) -> Vec<(u32, u32)> {
         let mut pairs = Vec::new();
-        self.grid.for_each_stretch_of(rows, &self.places, |Stretch { ones, others }| {
+        self.grid.for_each_row_range_pair_of(rows, &self.positions, |RowRangePair { ones, others }| {
             for one in ones.0..ones.1 {
                 pairs.extend((others.0.max(one + 1)..others.1).map(|other| (one, other)));
             }
@@ -36,24 +36,24 @@ impl Sorted {
     }
 
     fn pairs(&self) -> Vec<(u32, u32)> {
-        self.pairs_of(0..self.places.len() as u32)
+        self.pairs_of(0..self.positions.len() as u32)
     }
 
     fn is_near(&self, one: u32, other: u32) -> bool {
         let (i, j) = (one as usize, other as usize);
-        let apart = self.domain.images().nearest(self.places[i].vector - self.places[j].vector).norm();
-        apart < self.places[i].scalar + self.places[j].scalar + self.margin
+        let apart = self.domain.images().nearest(self.positions[i].vector - self.positions[j].vector).norm();
+        apart < self.positions[i].scalar + self.positions[j].scalar + self.margin
     }
 
     fn near_pairs(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        let all = (0..self.places.len() as u32).flat_map(|other| (0..other).map(move |one| (one, other)));
+        let all = (0..self.positions.len() as u32).flat_map(|other| (0..other).map(move |one| (one, other)));
         all.filter(|&(one, other)| self.is_near(one, other))
     }
 }
 
 /// Radii from the largest down to a `ratio`-th of it, as likely in every octave.
-fn radius(largest: f64, ratio: f64, place: f64) -> f64 {
-    largest * ratio.powf(-place)
+fn radius(largest: f64, ratio: f64, index: f64) -> f64 {
+    largest * ratio.powf(-index)
 }
 
 fn point() -> impl Strategy<Value = (f64, f64, f64, f64)> {
@@ -110,12 +110,12 @@ proptest! {
 
     #[test]
     fn what_is_nowhere_does_no_harm(
-        place in prop::sample::select(vec![f64::NAN, f64::INFINITY, 1e300, -1e300]),
+        index in prop::sample::select(vec![f64::NAN, f64::INFINITY, 1e300, -1e300]),
         periodic in prop::array::uniform3(any::<bool>()),
     ) {
         let domain = Domain::periodic(Vector3::zero(), Vector3::new(1.0, 1.0, 1.0), periodic);
         let mut spheres = scattered(100, 1.0, 0.03);
-        spheres[50] = (Vector3::new(0.5, place, 0.5), 0.003);
+        spheres[50] = (Vector3::new(0.5, index, 0.5), 0.003);
         let sorted = Sorted::new(domain, &spheres, 0.01);
         let found: BTreeSet<_> = sorted.pairs().into_iter().collect();
         prop_assert!(sorted.near_pairs().all(|pair| found.contains(&pair)));
@@ -128,13 +128,11 @@ fn rows_are_sorted_by_level_and_pairs_are_found_from_the_smaller_side() {
     spheres.extend(scattered(200, 1.0, 0.01));
     spheres.extend(scattered(50, 1.0, 0.05));
     let sorted = Sorted::new(Domain::unbounded(), &spheres, 0.001);
-    assert!(sorted.places.is_sorted_by_key(|place| place.scalar));
+    assert!(sorted.positions.is_sorted_by_key(|position| position.scalar));
     assert_eq!(sorted.grid.levels.len(), 3);
-    assert!(
-        sorted.pairs().iter().all(|&(one, other)| {
-            sorted.places[one as usize].scalar <= sorted.places[other as usize].scalar
-        })
-    );
+    assert!(sorted.pairs().iter().all(|&(one, other)| {
+        sorted.positions[one as usize].scalar <= sorted.positions[other as usize].scalar
+    }));
 }
 
 #[test]
@@ -195,7 +193,7 @@ fn a_stretch_of_rows_is_a_compact_body() {
     let spheres = scattered(64_000, 1.0, 0.012);
     let sorted = Sorted::new(Domain::unbounded(), &spheres, 0.001);
     let mut longest: Vec<f64> = Vec::new();
-    let centres: Vec<Vector3> = sorted.places.iter().map(|place| place.vector).collect();
+    let centres: Vec<Vector3> = sorted.positions.iter().map(|position| position.vector).collect();
     for rows in centres.chunks(1000) {
         let extent = |axis: usize| {
             let along = || rows.iter().map(|position| position[axis]);
@@ -203,7 +201,7 @@ fn a_stretch_of_rows_is_a_compact_body() {
         };
         longest.push(extent(0).max(extent(1)).max(extent(2)));
     }
-    // A thousand of them are two or three bricks in a line, of edge one fifth; some turn to the next.
+    // A thousand of them are two or three cell_blocks in a line, of edge one fifth; some turn to the next.
     longest.sort_unstable_by(f64::total_cmp);
     assert!(longest[longest.len() / 2] < 0.65);
 }

@@ -144,5 +144,5 @@ fn write_velocity(writer: &mut Writer, velocity: &VelocityPlan, group: &Particle
         writer.key("mean", vector(velocity.mean, Dimension::VELOCITY));
         writer.key("standard_deviation", quantity(velocity.standard_deviation, Dimension::VELOCITY));
     }
-    writer.key("spin", vector(velocity.spin, Dimension::RATE));
+    writer.key("spin", vector(velocity.angular_velocity, Dimension::RATE));
 }

@@ -34,7 +34,7 @@ impl<N: NormalLaw> Flight<'_, N> {
             stop_branch,
             restitution: if rebound { -self.motion[1] / self.problem.velocity } else { 0.0 },
             overlap_max: self.overlap_max,
-            overlap_end: if rebound { 0.0 - self.problem.reach() } else { self.motion[0] },
+            overlap_end: if rebound { 0.0 - self.problem.interaction_range() } else { self.motion[0] },
             contact_duration: self.opening_time.zip(self.touch_time).map(|(end, start)| end - start),
             energy_dissipated: dissipated,
             energy_error: (before - now) / self.largest_energy,
@@ -47,7 +47,8 @@ impl<N: NormalLaw> Flight<'_, N> {
             (Some(stop), _) => stop,
             (None, Some(branches)) if left < RESOLUTION * self.largest_energy => {
                 // The phase has changed already where the contact was all there was.
-                let phase = if self.problem.reach() > 0.0 { Phase::Apart } else { Phase::Contact };
+                let phase =
+                    if self.problem.interaction_range() > 0.0 { Phase::Apart } else { Phase::Contact };
                 Outcome { contact_duration: None, ..self.outcome(Regime::Stick, Some(branches.name(phase))) }
             }
             _ => self.outcome(Regime::Rebound, None),

@@ -32,7 +32,7 @@ pub(super) fn collide<N: NormalLaw>(
     problem: &Problem<'_>,
     observation: &Observation,
 ) -> Result<Collision, CollisionError> {
-    let dynamics = Dynamics { law, composition: &problem.contact.composition, pair: problem.pair };
+    let dynamics = Dynamics { law, laws: &problem.contact.laws, pair: problem.pair };
     let mut flight = Flight::new(dynamics, problem, observation);
     while !flight.over {
         flight.step()?;

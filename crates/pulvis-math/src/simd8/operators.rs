@@ -2,74 +2,74 @@
 
 /// The operators of a vector type from its functions, and what goes through memory.
 macro_rules! octet_operators {
-    ($octet:ident, $mask:ident) => {
-        impl Add for $octet {
+    ($simd8:ident, $mask:ident) => {
+        impl Add for $simd8 {
             type Output = Self;
             #[inline(always)]
             fn add(self, other: Self) -> Self {
                 self.sum(other)
             }
         }
-        impl Sub for $octet {
+        impl Sub for $simd8 {
             type Output = Self;
             #[inline(always)]
             fn sub(self, other: Self) -> Self {
                 self.difference(other)
             }
         }
-        impl Mul for $octet {
+        impl Mul for $simd8 {
             type Output = Self;
             #[inline(always)]
             fn mul(self, other: Self) -> Self {
                 self.product(other)
             }
         }
-        impl Div for $octet {
+        impl Div for $simd8 {
             type Output = Self;
             #[inline(always)]
             fn div(self, other: Self) -> Self {
                 self.quotient(other)
             }
         }
-        impl Neg for $octet {
+        impl Neg for $simd8 {
             type Output = Self;
             #[inline(always)]
             fn neg(self) -> Self {
                 self.opposite()
             }
         }
-        impl AddAssign for $octet {
+        impl AddAssign for $simd8 {
             #[inline(always)]
             fn add_assign(&mut self, other: Self) {
                 *self = *self + other;
             }
         }
-        impl SubAssign for $octet {
+        impl SubAssign for $simd8 {
             #[inline(always)]
             fn sub_assign(&mut self, other: Self) {
                 *self = *self - other;
             }
         }
-        impl Default for $octet {
+        impl Default for $simd8 {
             #[inline(always)]
             fn default() -> Self {
                 Self::splat(0.0)
             }
         }
-        impl PartialEq for $octet {
+        impl PartialEq for $simd8 {
             fn eq(&self, other: &Self) -> bool {
                 self.to_array() == other.to_array()
             }
         }
-        impl fmt::Debug for $octet {
+        impl fmt::Debug for $simd8 {
             fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-                out.debug_tuple(stringify!($octet)).field(&self.to_array()).finish()
+                out.debug_tuple(stringify!($simd8)).field(&self.to_array()).finish()
             }
         }
-        impl $octet {
+        impl $simd8 {
             #[inline(always)]
             fn to_array(self) -> [f64; 8] {
-                let mut lanes = Lanes::default();
+                let mut lanes = F64Array::default();
                 self.store(&mut lanes);
                 lanes.0
             }
@@ -102,8 +102,8 @@ macro_rules! octet_operators {
 macro_rules! lane_by_lane {
     () => {
         #[inline(always)]
-        fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
-            let mut lanes = Lanes::default();
+        fn from_fn(mut number: impl FnMut(usize) -> f64) -> Self {
+            let mut lanes = F64Array::default();
             for (lane, slot) in lanes.0.iter_mut().enumerate() {
                 *slot = number(lane);
             }
@@ -114,7 +114,7 @@ macro_rules! lane_by_lane {
             self.to_array()[lane]
         }
         fn powf(self, exponent: f64) -> Self {
-            Self::load(&Lanes(self.to_array().map(|number| number.powf(exponent))))
+            Self::load(&F64Array(self.to_array().map(|number| number.powf(exponent))))
         }
     };
 }

@@ -5,8 +5,8 @@ use std::fmt;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
 use super::operators::{lane_by_lane, octet_operators};
-use super::{Kernel, Octet, Quad, Row, side_by_side};
-use crate::lanes::Lanes;
+use super::{Kernel, Packed4, Simd4, Simd8, side_by_side};
+use crate::array::F64Array;
 use crate::real::{Mask, Real};
 
 /// The kernel compiled for the instructions of every x86-64 processor.
@@ -37,15 +37,15 @@ macro_rules! halves {
     };
 }
 
-impl Row for Xmm2 {
+impl Simd4 for Xmm2 {
     #[inline(always)]
-    fn load(quad: &Quad) -> Self {
-        let start: *const f64 = (&raw const *quad).cast();
+    fn load(packed: &Packed4) -> Self {
+        let start: *const f64 = (&raw const *packed).cast();
         unsafe { Self(_mm_load_pd(start), _mm_load_pd(start.add(2))) }
     }
     #[inline(always)]
-    fn store(self, quad: &mut Quad) {
-        let start: *mut f64 = (&raw mut *quad).cast();
+    fn store(self, packed: &mut Packed4) {
+        let start: *mut f64 = (&raw mut *packed).cast();
         unsafe {
             _mm_store_pd(start, self.0);
             _mm_store_pd(start.add(2), self.1);
@@ -228,12 +228,12 @@ macro_rules! even_and_odd {
     };
 }
 
-impl Octet for Xmm4 {
-    type Row = Xmm2;
-    type Twin = [Self::Row; 2];
+impl Simd8 for Xmm4 {
+    type Simd4 = Xmm2;
+    type Simd4Pair = [Self::Simd4; 2];
 
     #[inline(always)]
-    fn load(source: &Lanes<8>) -> Self {
+    fn load(source: &F64Array<8>) -> Self {
         let start = source.0.as_ptr();
         unsafe {
             Self(
@@ -245,7 +245,7 @@ impl Octet for Xmm4 {
         }
     }
     #[inline(always)]
-    fn store(self, target: &mut Lanes<8>) {
+    fn store(self, target: &mut F64Array<8>) {
         let start = target.0.as_mut_ptr();
         unsafe {
             _mm_store_pd(start, self.0);
@@ -287,7 +287,7 @@ impl Octet for Xmm4 {
     }
 
     #[inline(always)]
-    fn twins(first: [Self; 4], second: [Self; 4]) -> [Self::Twin; 8] {
+    fn row_pairs(first: [Self; 4], second: [Self; 4]) -> [Self::Simd4Pair; 8] {
         side_by_side(Self::rows(first), Self::rows(second))
     }
 }

@@ -13,16 +13,16 @@ use crate::shared::Shared;
 /// One thread, or several that stay ready between the regions of a step.
 ///
 /// A step of a small system lasts some ten microseconds: threads that sleep between regions would be
-/// woken for as long as they work. These spin, and sleep only when nothing has come for a while.
-/// The results do not depend on how many there are: work is cut into the same pieces for any number of
-/// threads, and sums are taken piece by piece in a fixed order.
+/// woken for as long as they work. These angular velocity, and sleep only when nothing has come for a while.
+/// The results do not depend on how many there are: work is cut into the same chunks for any number of
+/// threads, and sums are taken chunk by chunk in a fixed order.
 #[derive(Clone, Debug, Default)]
-pub struct Team {
-    crew: Option<Arc<Crew>>,
+pub struct ThreadPool {
+    workers: Option<Arc<Workers>>,
 }
 
-impl Team {
-    /// A team of `threads` threads, this one among them.
+impl ThreadPool {
+    /// A pool of `threads` threads, this one among them.
     ///
     /// # Errors
     /// The system cannot start that many threads.
@@ -30,59 +30,59 @@ impl Team {
         if threads <= 1 {
             return Ok(Self::default());
         }
-        Ok(Self { crew: Some(Arc::new(Crew::start(threads)?)) })
+        Ok(Self { workers: Some(Arc::new(Workers::start(threads)?)) })
     }
 
     /// Number of threads.
     pub fn threads(&self) -> usize {
-        self.crew.as_ref().map_or(1, |crew| crew.helpers.len() + 1)
+        self.workers.as_ref().map_or(1, |workers| workers.helpers.len() + 1)
     }
 
     /// Does `work` for every number below `count`, each once, in an order that depends on the threads.
-    /// `work` is told which member of the team does it, counted from zero.
+    /// `work` is told which worker of the pool does it, counted from zero.
     pub(crate) fn for_each_number(&self, count: usize, work: impl Fn(usize, usize) + Sync) {
         self.for_each_number_in_turns(count, work, |_, _| {});
     }
 
-    /// The same; between its turns every member calls `between`: when it has no number of its own left to
+    /// The same; between its turns every worker calls `between`: when it has no number of its own left to
     /// begin with, and when nobody has any, though others may still be at their last ones.
     ///
-    /// Every member begins with numbers of its own, the same in every region, so that what it has in its
+    /// Every worker begins with numbers of its own, the same in every region, so that what it has in its
     /// caches is of use again; then it helps the others.
     pub(crate) fn for_each_number_in_turns(
         &self,
         count: usize,
         work: impl Fn(usize, usize) + Sync,
-        between: impl Fn(usize, &Turn<'_>) + Sync,
+        between: impl Fn(usize, &Phase<'_>) + Sync,
     ) {
-        let Some(crew) = &self.crew else {
+        let Some(workers) = &self.workers else {
             (0..count).for_each(|number| work(0, number));
-            between(0, &Turn { last: true, panicked: None });
+            between(0, &Phase { last: true, panicked: None });
             return;
         };
         let threads = self.threads();
-        let guard = crew.lead();
-        for (member, cursor) in crew.shared.cursors.iter().enumerate() {
-            cursor.0.store(count * member / threads, Ordering::Relaxed);
+        let guard = workers.lead();
+        for (worker, cursor) in workers.shared.cursors.iter().enumerate() {
+            cursor.0.store(count * worker / threads, Ordering::Relaxed);
         }
-        let cursors = &crew.shared.cursors;
-        let panicked = Some(&crew.shared.panicked);
-        crew.region(&guard, &|member| {
+        let cursors = &workers.shared.cursors;
+        let panicked = Some(&workers.shared.panicked);
+        workers.region(&guard, &|worker| {
             for turn in 0..threads {
-                let owner = (member + turn) % threads;
+                let owner = (worker + turn) % threads;
                 let end = count * (owner + 1) / threads;
                 loop {
                     let number = cursors[owner].0.fetch_add(1, Ordering::Relaxed);
                     if number >= end {
                         break;
                     }
-                    work(member, number);
+                    work(worker, number);
                 }
                 if turn == 0 {
-                    between(member, &Turn { last: false, panicked });
+                    between(worker, &Phase { last: false, panicked });
                 }
             }
-            between(member, &Turn { last: true, panicked });
+            between(worker, &Phase { last: true, panicked });
         });
     }
 
@@ -154,7 +154,7 @@ impl Team {
         std::mem::swap(column, spare);
     }
 
-    /// Does `work` on every item, with its place.
+    /// Does `work` on every item, with its index.
     pub(crate) fn for_each<T: Send>(&self, items: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
         let count = items.len();
         let items = Shared::new(items);
@@ -163,20 +163,20 @@ impl Team {
     }
 }
 
-/// Where a member of the team stands in a region.
+/// Where a worker of the pool stands in a region.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Turn<'a> {
+pub(crate) struct Phase<'a> {
     last: bool,
     panicked: Option<&'a AtomicBool>,
 }
 
-impl Turn<'_> {
+impl Phase<'_> {
     /// Whether there is no number left to begin with.
     pub(crate) fn is_last(&self) -> bool {
         self.last
     }
 
-    /// Whether another member has panicked: it is of no use to wait for what it should have done.
+    /// Whether another worker has panicked: it is of no use to wait for what it should have done.
     pub(crate) fn is_given_up(&self) -> bool {
         self.panicked.is_some_and(|panicked| panicked.load(Ordering::Relaxed))
     }
@@ -203,7 +203,7 @@ struct Cursor(AtomicUsize);
 
 /// What the leader and its helpers share.
 #[derive(Default)]
-struct Board {
+struct SharedState {
     /// The number of the region, whether it is open, and how many helpers have joined it.
     state: AtomicU64,
     /// The work of the open region; valid for those who have joined until they are `done`.
@@ -214,11 +214,11 @@ struct Board {
     sleeping: Vec<AtomicBool>,
     cursors: Vec<Cursor>,
     panic: Mutex<Option<Box<dyn Any + Send>>>,
-    /// Whether any member has panicked in the present region.
+    /// Whether any worker has panicked in the present region.
     panicked: AtomicBool,
 }
 
-/// Parts of the state of a board: helpers in the lower half, then one bit, then the region.
+/// Parts of the state of a shared_state: helpers in the lower half, then one bit, then the region.
 const OPEN: u64 = 1 << 32;
 const HELPERS: u64 = OPEN - 1;
 const REGION: u64 = OPEN << 1;
@@ -226,83 +226,86 @@ const REGION: u64 = OPEN << 1;
 // SAFETY: `job` is written by the leader only, before it opens a region (release) and after all who had
 // joined the last one are done (acquire); helpers read it only between joining (acquire) and being done
 // (release), and none can join a region that the leader has closed.
-unsafe impl Sync for Board {}
+unsafe impl Sync for SharedState {}
 // SAFETY: the pointer in `job` is to something that is `Sync`.
-unsafe impl Send for Board {}
+unsafe impl Send for SharedState {}
 
-impl std::fmt::Debug for Board {
+impl std::fmt::Debug for SharedState {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.debug_struct("Board").finish_non_exhaustive()
+        out.debug_struct("SharedState").finish_non_exhaustive()
     }
 }
 
 #[derive(Debug)]
-struct Crew {
-    shared: Arc<Board>,
+struct Workers {
+    shared: Arc<SharedState>,
     helpers: Vec<JoinHandle<()>>,
-    /// Held by the thread that leads a region: systems may share a team.
+    /// Held by the thread that leads a region: systems may share a pool.
     leader: Mutex<()>,
 }
 
-impl Crew {
+impl Workers {
     fn start(threads: usize) -> std::io::Result<Self> {
-        let mut board = Board::default();
-        board.sleeping.resize_with(threads, AtomicBool::default);
-        board.cursors.resize_with(threads, Cursor::default);
-        let mut crew = Self { shared: Arc::new(board), helpers: Vec::new(), leader: Mutex::new(()) };
-        for member in 1..threads {
-            let board = Arc::clone(&crew.shared);
-            let name = format!("pulvis-{member}");
-            // Should one fail, dropping the crew stops those that have started.
-            crew.helpers.push(std::thread::Builder::new().name(name).spawn(move || help(&board, member))?);
+        let mut shared_state = SharedState::default();
+        shared_state.sleeping.resize_with(threads, AtomicBool::default);
+        shared_state.cursors.resize_with(threads, Cursor::default);
+        let mut workers =
+            Self { shared: Arc::new(shared_state), helpers: Vec::new(), leader: Mutex::new(()) };
+        for worker in 1..threads {
+            let shared_state = Arc::clone(&workers.shared);
+            let name = format!("pulvis-{worker}");
+            // Should one fail, dropping the workers stops those that have started.
+            workers
+                .helpers
+                .push(std::thread::Builder::new().name(name).spawn(move || help(&shared_state, worker))?);
         }
-        Ok(crew)
+        Ok(workers)
     }
 
     fn lead(&self) -> MutexGuard<'_, ()> {
         self.leader.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Calls `job` with the number of every member that comes in time, on that member's thread, this one
+    /// Calls `job` with the number of every worker that comes in time, on that worker's thread, this one
     /// first of all, and waits for those. Helpers that have not come when this thread has finished are not
     /// waited for: other programs may have taken their processors.
     fn region(&self, _lead: &MutexGuard<'_, ()>, job: &Job<'_>) {
-        let board = &*self.shared;
+        let shared_state = &*self.shared;
         // SAFETY: only the lifetime changes; no helper uses the job after it is done, for which this
         // function waits, also if its own share panics.
         let job_for_helpers: *const Job<'static> =
             unsafe { std::mem::transmute::<*const Job<'_>, *const Job<'static>>(&raw const *job) };
-        // SAFETY: the last region is closed and all who joined it are done, see `Sync for Board`.
-        unsafe { *board.job.get() = Some(job_for_helpers) };
-        board.done.store(0, Ordering::Relaxed);
-        let region = board.state.load(Ordering::Relaxed) / REGION + 1;
-        board.state.store(region * REGION + OPEN, Ordering::SeqCst);
-        for (helper, sleeping) in self.helpers.iter().zip(&board.sleeping[1..]) {
+        // SAFETY: the last region is closed and all who joined it are done, see `Sync for SharedState`.
+        unsafe { *shared_state.job.get() = Some(job_for_helpers) };
+        shared_state.done.store(0, Ordering::Relaxed);
+        let region = shared_state.state.load(Ordering::Relaxed) / REGION + 1;
+        shared_state.state.store(region * REGION + OPEN, Ordering::SeqCst);
+        for (helper, sleeping) in self.helpers.iter().zip(&shared_state.sleeping[1..]) {
             if sleeping.load(Ordering::SeqCst) {
                 helper.thread().unpark();
             }
         }
         let own = catch_unwind(AssertUnwindSafe(|| job(0)));
         if own.is_err() {
-            board.panicked.store(true, Ordering::Relaxed);
+            shared_state.panicked.store(true, Ordering::Relaxed);
         }
-        let joined = board.state.fetch_and(!OPEN, Ordering::AcqRel) & HELPERS;
+        let joined = shared_state.state.fetch_and(!OPEN, Ordering::AcqRel) & HELPERS;
         let mut rounds = 0;
-        while board.done.load(Ordering::Acquire) != joined {
+        while shared_state.done.load(Ordering::Acquire) != joined {
             wait(&mut rounds);
         }
-        board.panicked.store(false, Ordering::Relaxed);
+        shared_state.panicked.store(false, Ordering::Relaxed);
         if let Err(panic) = own {
             resume_unwind(panic);
         }
-        let panic = board.panic.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let panic = shared_state.panic.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(panic) = panic {
             resume_unwind(panic);
         }
     }
 }
 
-impl Drop for Crew {
+impl Drop for Workers {
     fn drop(&mut self) {
         self.shared.stop.store(true, Ordering::SeqCst);
         self.shared.state.fetch_add(REGION, Ordering::SeqCst);
@@ -325,50 +328,51 @@ pub(crate) fn wait(rounds: &mut u32) {
 }
 
 /// The life of a helper.
-fn help(board: &Board, member: usize) {
+fn help(shared_state: &SharedState, worker: usize) {
     let mut seen = 0;
     loop {
         let mut rounds = 0;
-        while board.state.load(Ordering::Acquire) / REGION == seen {
+        while shared_state.state.load(Ordering::Acquire) / REGION == seen {
             if rounds < SPINS + YIELDS {
                 wait(&mut rounds);
                 continue;
             }
-            board.sleeping[member].store(true, Ordering::SeqCst);
+            shared_state.sleeping[worker].store(true, Ordering::SeqCst);
             // Looked at once more: the leader may have begun a region without seeing the flag.
-            if board.state.load(Ordering::SeqCst) / REGION == seen {
+            if shared_state.state.load(Ordering::SeqCst) / REGION == seen {
                 std::thread::park();
             }
-            board.sleeping[member].store(false, Ordering::SeqCst);
+            shared_state.sleeping[worker].store(false, Ordering::SeqCst);
         }
-        if board.stop.load(Ordering::SeqCst) {
+        if shared_state.stop.load(Ordering::SeqCst) {
             return;
         }
-        let (region, joined) = join(board);
+        let (region, joined) = join(shared_state);
         seen = region;
         if !joined {
             continue;
         }
-        // SAFETY: this helper has joined and is not done, see `Sync for Board`; the leader keeps the job
+        // SAFETY: this helper has joined and is not done, see `Sync for SharedState`; the leader keeps the job
         // alive until then.
         let outcome = catch_unwind(AssertUnwindSafe(|| unsafe {
-            if let Some(job) = *board.job.get() {
-                (*job)(member);
+            if let Some(job) = *shared_state.job.get() {
+                (*job)(worker);
             }
         }));
         if let Err(panic) = outcome {
-            board.panicked.store(true, Ordering::Relaxed);
-            *board.panic.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic);
+            shared_state.panicked.store(true, Ordering::Relaxed);
+            *shared_state.panic.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic);
         }
-        board.done.fetch_add(1, Ordering::Release);
+        shared_state.done.fetch_add(1, Ordering::Release);
     }
 }
 
 /// Joins the present region. Answers with its number, and whether it was still open.
-fn join(board: &Board) -> (u64, bool) {
-    let mut state = board.state.load(Ordering::Acquire);
+fn join(shared_state: &SharedState) -> (u64, bool) {
+    let mut state = shared_state.state.load(Ordering::Acquire);
     while state & OPEN != 0 {
-        let next = board.state.compare_exchange_weak(state, state + 1, Ordering::AcqRel, Ordering::Acquire);
+        let next =
+            shared_state.state.compare_exchange_weak(state, state + 1, Ordering::AcqRel, Ordering::Acquire);
         match next {
             Ok(_) => return (state / REGION, true),
             Err(now) => state = now,

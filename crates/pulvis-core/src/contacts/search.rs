@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use pulvis_math::{Kernel, Lanes, Mask, Octet, Quad, Row, Vector3};
+use pulvis_math::{F64Array, Kernel, Mask, Packed4, Simd4, Simd8, Vector3};
 
 use crate::domain::Images;
-use crate::neighbours::Stretch;
+use crate::neighbours::RowRangePair;
 
 /// Two rows near each other, the lower one first, and the gap between their surfaces [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,48 +16,48 @@ pub(super) struct Near {
 
 /// Lists the pairs of rows whose surfaces are closer than `margin` [m].
 pub(super) struct Search<'a> {
-    pub(super) stretches: &'a [Stretch],
-    pub(super) places: &'a [Quad],
+    pub(super) row_ranges: &'a [RowRangePair],
+    pub(super) positions: &'a [Packed4],
     pub(super) images: Images,
     pub(super) margin: f64,
     pub(super) near: &'a mut Vec<Near>,
 }
 
 /// Rows that are looked at together: one bit for each.
-const CROWD: usize = u64::BITS as usize;
-const EIGHTS: usize = CROWD / 8;
+const TILE: usize = u64::BITS as usize;
+const EIGHTS: usize = TILE / 8;
 
-/// Up to [`CROWD`] rows in columns.
+/// Up to [`TILE`] rows in columns.
 #[derive(Default)]
-struct Crowd {
+struct Tile {
     /// x, y, z of the centres and the radius [m].
-    columns: [[Lanes<8>; 4]; EIGHTS],
+    columns: [[F64Array<8>; 4]; EIGHTS],
     /// Squared distances from one row [m²].
-    squares: [Lanes<8>; EIGHTS],
+    squares: [F64Array<8>; EIGHTS],
 }
 
 impl Kernel for Search<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Octet>(self) {
-        let Self { mut stretches, places, images, margin, near } = self;
+    fn run<R: Simd8>(self) {
+        let Self { mut row_ranges, positions, images, margin, near } = self;
         let mut others = Vec::new();
-        let mut crowd = Crowd::default();
-        while let Some(&Stretch { ones, others: first }) = stretches.first() {
+        let mut tile = Tile::default();
+        while let Some(&RowRangePair { ones, others: first }) = row_ranges.first() {
             // Stretches of the same rows, one behind the other: short ones would leave most lanes idle.
-            let count = write_out(&mut stretches, ones, &mut others);
-            for start in (0..count).step_by(CROWD) {
-                let end = count.min(start + CROWD);
+            let count = write_out(&mut row_ranges, ones, &mut others);
+            for start in (0..count).step_by(TILE) {
+                let end = count.min(start + TILE);
                 let some = &others[start..end.next_multiple_of(8)];
-                crowd.fill::<R>(places, some);
+                tile.fill::<R>(positions, some);
                 for one in ones.0..ones.1 {
                     // Only the first stretch may hold rows that are not later.
                     let earlier = ((one + 1).clamp(first.0, first.1) - first.0) as usize;
-                    let Quad { vector, scalar } = places[one as usize];
-                    let found = crowd.near::<R>(end - start, vector, scalar + margin, images);
+                    let Packed4 { vector, scalar } = positions[one as usize];
+                    let found = tile.near::<R>(end - start, vector, scalar + margin, images);
                     let found = found & bits(earlier.saturating_sub(start)..end - start);
-                    crowd.write_down(found, (one, scalar), some, near);
+                    tile.write_down(found, (one, scalar), some, near);
                 }
             }
         }
@@ -67,9 +67,9 @@ impl Kernel for Search<'_> {
 /// The rows of all stretches that come first and have the same `ones`, and their number. Behind them stands the
 /// last one, until the number is a multiple of eight.
 #[inline(always)]
-fn write_out(stretches: &mut &[Stretch], ones: (u32, u32), rows: &mut Vec<u32>) -> usize {
+fn write_out(row_ranges: &mut &[RowRangePair], ones: (u32, u32), rows: &mut Vec<u32>) -> usize {
     let mut count = 0;
-    while let Some((&Stretch { ones: same, others: (start, end) }, left)) = stretches.split_first()
+    while let Some((&RowRangePair { ones: same, others: (start, end) }, left)) = row_ranges.split_first()
         && same == ones
     {
         let length = (end - start) as usize;
@@ -91,7 +91,7 @@ fn write_out(stretches: &mut &[Stretch], ones: (u32, u32), rows: &mut Vec<u32>) 
             ]);
         }
         count += length;
-        *stretches = left;
+        *row_ranges = left;
     }
     if count > 0 {
         let last = rows[count - 1];
@@ -100,18 +100,18 @@ fn write_out(stretches: &mut &[Stretch], ones: (u32, u32), rows: &mut Vec<u32>) 
     count
 }
 
-/// Ones in a range of places.
+/// Ones in a range of positions.
 #[inline(always)]
-fn bits(places: Range<usize>) -> u64 {
-    let below = |place: usize| u64::MAX.checked_shr((CROWD - place.min(CROWD)) as u32).unwrap_or(0);
-    below(places.end) & !below(places.start)
+fn bits(positions: Range<usize>) -> u64 {
+    let below = |index: usize| u64::MAX.checked_shr((TILE - index.min(TILE)) as u32).unwrap_or(0);
+    below(positions.end) & !below(positions.start)
 }
 
-impl Crowd {
+impl Tile {
     #[inline(always)]
-    fn fill<R: Octet>(&mut self, places: &[Quad], rows: &[u32]) {
+    fn fill<R: Simd8>(&mut self, positions: &[Packed4], rows: &[u32]) {
         for (columns, eight) in self.columns.iter_mut().zip(rows.as_chunks::<8>().0) {
-            for (column, value) in columns.iter_mut().zip(columns_of::<R>(places, eight)) {
+            for (column, value) in columns.iter_mut().zip(columns_of::<R>(positions, eight)) {
                 value.store(column);
             }
         }
@@ -120,8 +120,14 @@ impl Crowd {
     /// A bit for each of the first `count` rows, and perhaps for some behind them, whose centre is nearer than
     /// `reach` [m] and its radius.
     #[inline(always)]
-    fn near<R: Octet>(&mut self, count: usize, centre: Vector3, reach: f64, images: Images) -> u64 {
-        let (centre, reach) = (Vector3::<R>::splat(centre), R::splat(reach));
+    fn near<R: Simd8>(
+        &mut self,
+        count: usize,
+        centre: Vector3,
+        interaction_range: f64,
+        images: Images,
+    ) -> u64 {
+        let (centre, interaction_range) = (Vector3::<R>::splat(centre), R::splat(interaction_range));
         let mut found = 0;
         for (eight, (columns, squares)) in
             self.columns.iter().zip(&mut self.squares).take(count.div_ceil(8)).enumerate()
@@ -129,7 +135,7 @@ impl Crowd {
             let [x, y, z, radius] = columns;
             let other = Vector3::new(R::load(x), R::load(y), R::load(z));
             let apart = images.nearest(centre - other).norm_squared();
-            let near = reach + R::load(radius);
+            let near = interaction_range + R::load(radius);
             found |= u64::from(apart.lt(near * near).bits()) << (8 * eight);
             apart.store(squares);
         }
@@ -139,16 +145,16 @@ impl Crowd {
     /// Writes down the pairs of a row, given with its radius [m], and those among `rows` that were `found` near it.
     #[inline(always)]
     fn write_down(&self, mut found: u64, (one, radius): (u32, f64), rows: &[u32], near: &mut Vec<Near>) {
-        near.reserve(CROWD);
+        near.reserve(TILE);
         let mut count = 0;
         let room = near.spare_capacity_mut();
         while found != 0 {
-            let place = found.trailing_zeros() as usize;
+            let index = found.trailing_zeros() as usize;
             found &= found - 1;
-            let (eight, lane) = (place / 8, place % 8);
+            let (eight, lane) = (index / 8, index % 8);
             let both = radius + self.columns[eight][3].0[lane];
             let gap = self.squares[eight].0[lane].sqrt() - both;
-            room[count].write(Near { rows: [one, rows[place]], gap });
+            room[count].write(Near { rows: [one, rows[index]], gap });
             count += 1;
         }
         // SAFETY: so many have been written behind the last one.
@@ -158,16 +164,16 @@ impl Crowd {
 
 /// The columns of eight rows.
 #[inline(always)]
-fn columns_of<R: Octet>(places: &[Quad], rows: &[u32; 8]) -> [R; 4] {
+fn columns_of<R: Simd8>(positions: &[Packed4], rows: &[u32; 8]) -> [R; 4] {
     R::columns([
-        R::Row::load(&places[rows[0] as usize]),
-        R::Row::load(&places[rows[1] as usize]),
-        R::Row::load(&places[rows[2] as usize]),
-        R::Row::load(&places[rows[3] as usize]),
-        R::Row::load(&places[rows[4] as usize]),
-        R::Row::load(&places[rows[5] as usize]),
-        R::Row::load(&places[rows[6] as usize]),
-        R::Row::load(&places[rows[7] as usize]),
+        R::Simd4::load(&positions[rows[0] as usize]),
+        R::Simd4::load(&positions[rows[1] as usize]),
+        R::Simd4::load(&positions[rows[2] as usize]),
+        R::Simd4::load(&positions[rows[3] as usize]),
+        R::Simd4::load(&positions[rows[4] as usize]),
+        R::Simd4::load(&positions[rows[5] as usize]),
+        R::Simd4::load(&positions[rows[6] as usize]),
+        R::Simd4::load(&positions[rows[7] as usize]),
     ])
 }
 
@@ -180,12 +186,12 @@ mod tests {
 
     /// Rows in a line, 0.3 m apart, and pairs whose surfaces are closer than 0.55 m: up to the fifth row
     /// behind one.
-    fn found(rows: u32, stretches: &[Stretch], set: InstructionSet) -> Vec<Near> {
-        let line = |row| Quad::new(Vector3::new(0.3 * f64::from(row), 0.0, 0.0), 0.5);
-        let places: Vec<Quad> = (0..rows).map(line).collect();
+    fn found(rows: u32, row_ranges: &[RowRangePair], set: InstructionSet) -> Vec<Near> {
+        let line = |row| Packed4::new(Vector3::new(0.3 * f64::from(row), 0.0, 0.0), 0.5);
+        let positions: Vec<Packed4> = (0..rows).map(line).collect();
         let mut near = Vec::new();
         let images = Domain::unbounded().images();
-        set.run(Search { stretches, places: &places, images, margin: 0.55, near: &mut near });
+        set.run(Search { row_ranges, positions: &positions, images, margin: 0.55, near: &mut near });
         near
     }
 
@@ -193,9 +199,9 @@ mod tests {
     fn near_rows_are_found_in_stretches_of_any_length() {
         for length in 0..40_u32 {
             let half = length.div_ceil(2);
-            let stretches = [(0, half), (half, length)].map(|others| Stretch { ones: (0, 1), others });
+            let row_ranges = [(0, half), (half, length)].map(|others| RowRangePair { ones: (0, 1), others });
             for set in InstructionSet::available() {
-                let found = found(40, &stretches, set);
+                let found = found(40, &row_ranges, set);
                 assert!(
                     found.iter().map(|near| near.rows).eq((1..length.min(6)).map(|row| [0, row])),
                     "{set}"
@@ -210,12 +216,12 @@ mod tests {
     #[test]
     fn more_rows_than_are_looked_at_together_are_found_once_each() {
         for (start, end) in [(0, 200), (70, 140), (63, 64), (64, 66)] {
-            let stretches = [Stretch { ones: (start, end), others: (start, 200) }];
+            let row_ranges = [RowRangePair { ones: (start, end), others: (start, 200) }];
             let of_one = |one: u32| (one + 1..(one + 6).min(200)).map(move |other| [one, other]);
             let mut expected: Vec<[u32; 2]> = (start..end).flat_map(of_one).collect();
             expected.sort_unstable();
             for set in InstructionSet::available() {
-                let mut rows: Vec<_> = found(200, &stretches, set).iter().map(|near| near.rows).collect();
+                let mut rows: Vec<_> = found(200, &row_ranges, set).iter().map(|near| near.rows).collect();
                 rows.sort_unstable();
                 assert_eq!(rows, expected, "{set}");
             }

@@ -1,6 +1,6 @@
 //! Eight numbers in the registers of one instruction set, and the way from and to rows in memory.
 //!
-//! The loops of the engine are written once, as a [`Kernel`] over any [`Octet`], and compiled for
+//! The loops of the engine are written once, as a [`Kernel`] over any [`Simd8`], and compiled for
 //! every instruction set; which one runs is chosen while the program runs. The vector types cannot be
 //! named outside of this crate: code gets them as the type parameter of [`Kernel::run`], which
 //! [`InstructionSet::run`] calls only where the processor has the instructions.
@@ -17,21 +17,21 @@ mod sse2;
 
 use std::fmt;
 
-use crate::lanes::Lanes;
+use crate::array::F64Array;
 use crate::real::Real;
 use crate::vector::Vector3;
 
 /// A vector and one more number: 32 bytes, which one load brings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C, align(32))]
-pub struct Quad {
+pub struct Packed4 {
     /// The vector.
     pub vector: Vector3,
     /// The number beside it.
     pub scalar: f64,
 }
 
-impl Quad {
+impl Packed4 {
     /// A vector and a number.
     #[inline(always)]
     pub const fn new(vector: Vector3, scalar: f64) -> Self {
@@ -39,12 +39,12 @@ impl Quad {
     }
 }
 
-/// The four numbers of a [`Quad`] in a register.
-pub trait Row: Copy {
-    /// The quad in memory.
-    fn load(quad: &Quad) -> Self;
+/// The four numbers of a [`Packed4`] in a register.
+pub trait Simd4: Copy {
+    /// The packed vector in memory.
+    fn load(packed: &Packed4) -> Self;
     /// Into memory.
-    fn store(self, quad: &mut Quad);
+    fn store(self, packed: &mut Packed4);
     /// Four equal numbers.
     fn splat(value: f64) -> Self;
     /// Sum, number by number.
@@ -57,27 +57,27 @@ pub trait Row: Copy {
     fn with_scalar_of(self, other: Self) -> Self;
 }
 
-/// Two [`Quad`]s that stand side by side, in registers.
-pub trait Twin: Copy {
-    /// The quads in memory.
-    fn load(quads: &[Quad; 2]) -> Self;
+/// Two [`Packed4`]s that stand side by side, in registers.
+pub trait Simd4Pair: Copy {
+    /// The packed vector in memory.
+    fn load(packed: &[Packed4; 2]) -> Self;
     /// Into memory.
-    fn store(self, quads: &mut [Quad; 2]);
+    fn store(self, packed: &mut [Packed4; 2]);
     /// Sum, number by number.
     fn plus(self, other: Self) -> Self;
-    /// The difference of the first quads and the sum of the second ones, number by number.
+    /// The difference of the first packed vectors and the sum of the second ones, number by number.
     fn minus_plus(self, other: Self) -> Self;
 }
 
-impl<R: Row> Twin for [R; 2] {
+impl<R: Simd4> Simd4Pair for [R; 2] {
     #[inline(always)]
-    fn load(quads: &[Quad; 2]) -> Self {
-        [R::load(&quads[0]), R::load(&quads[1])]
+    fn load(packed: &[Packed4; 2]) -> Self {
+        [R::load(&packed[0]), R::load(&packed[1])]
     }
     #[inline(always)]
-    fn store(self, quads: &mut [Quad; 2]) {
-        self[0].store(&mut quads[0]);
-        self[1].store(&mut quads[1]);
+    fn store(self, packed: &mut [Packed4; 2]) {
+        self[0].store(&mut packed[0]);
+        self[1].store(&mut packed[1]);
     }
     #[inline(always)]
     fn plus(self, other: Self) -> Self {
@@ -89,9 +89,9 @@ impl<R: Row> Twin for [R; 2] {
     }
 }
 
-/// The twins of eight rows and of eight others.
+/// The row_pairs of eight rows and of eight others.
 #[inline(always)]
-fn side_by_side<R: Row>(a: [R; 8], b: [R; 8]) -> [[R; 2]; 8] {
+fn side_by_side<R: Simd4>(a: [R; 8], b: [R; 8]) -> [[R; 2]; 8] {
     [
         [a[0], b[0]],
         [a[1], b[1]],
@@ -105,35 +105,35 @@ fn side_by_side<R: Row>(a: [R; 8], b: [R; 8]) -> [[R; 2]; 8] {
 }
 
 /// Eight numbers at a time, one a lane.
-pub trait Octet: Real {
+pub trait Simd8: Real {
     /// Four numbers at a time.
-    type Row: Row;
+    type Simd4: Simd4;
     /// Two rows at a time.
-    type Twin: Twin;
+    type Simd4Pair: Simd4Pair;
     /// Eight numbers in memory.
-    fn load(source: &Lanes<8>) -> Self;
+    fn load(source: &F64Array<8>) -> Self;
     /// Into memory.
-    fn store(self, target: &mut Lanes<8>);
+    fn store(self, target: &mut F64Array<8>);
     /// In memory.
     #[inline(always)]
-    fn to_lanes(self) -> Lanes<8> {
-        let mut lanes = Lanes::default();
+    fn to_array(self) -> F64Array<8> {
+        let mut lanes = F64Array::default();
         self.store(&mut lanes);
         lanes
     }
     /// The columns of eight rows: x, y, z and the scalar of each.
-    fn columns(rows: [Self::Row; 8]) -> [Self; 4];
+    fn columns(rows: [Self::Simd4; 8]) -> [Self; 4];
     /// The columns of two times eight rows against each other: the differences of x, y and z, and the sum
     /// of the scalars.
     #[inline(always)]
-    fn apart(ones: [Self::Row; 8], others: [Self::Row; 8]) -> [Self; 4] {
+    fn apart(ones: [Self::Simd4; 8], others: [Self::Simd4; 8]) -> [Self; 4] {
         let ([x, y, z, scalar], other) = (Self::columns(ones), Self::columns(others));
         [x - other[0], y - other[1], z - other[2], scalar + other[3]]
     }
     /// The rows of four columns.
-    fn rows(columns: [Self; 4]) -> [Self::Row; 8];
+    fn rows(columns: [Self; 4]) -> [Self::Simd4; 8];
     /// The rows of two times four columns, side by side.
-    fn twins(first: [Self; 4], second: [Self; 4]) -> [Self::Twin; 8];
+    fn row_pairs(first: [Self; 4], second: [Self; 4]) -> [Self::Simd4Pair; 8];
 }
 
 /// A loop that is compiled for every instruction set.
@@ -142,7 +142,7 @@ pub trait Kernel {
     type Output;
     /// The loop. Implementations must be `#[inline(always)]`, and so must everything that they call
     /// with values of type `R`: what is not inlined is compiled without the vector instructions.
-    fn run<R: Octet>(self) -> Self::Output;
+    fn run<R: Simd8>(self) -> Self::Output;
 }
 
 /// The instructions that loops can be compiled for. All give the same bits.
@@ -228,7 +228,7 @@ impl fmt::Display for InstructionSet {
 #[cfg(any(test, not(target_arch = "x86_64")))]
 #[inline(never)]
 fn run_plain<K: Kernel>(kernel: K) -> K::Output {
-    kernel.run::<Lanes<8>>()
+    kernel.run::<F64Array<8>>()
 }
 
 #[cfg(test)]
@@ -240,14 +240,14 @@ mod tests {
 
     /// Every operation of the trait, on the numbers of two arrays.
     struct Everything<'a> {
-        x: &'a Lanes<8>,
-        y: &'a Lanes<8>,
+        x: &'a F64Array<8>,
+        y: &'a F64Array<8>,
     }
 
     impl Kernel for Everything<'_> {
         type Output = Vec<[u64; 8]>;
         #[inline(always)]
-        fn run<R: Octet>(self) -> Vec<[u64; 8]> {
+        fn run<R: Simd8>(self) -> Vec<[u64; 8]> {
             let (x, y) = (R::load(self.x), R::load(self.y));
             let (one, zero) = (R::one(), R::zero());
             let flag = |mask: R::Mask| R::select(mask, one, zero);
@@ -275,8 +275,8 @@ mod tests {
                 R::splat(x.sum_lanes()),
                 R::splat(f64::from(u8::from(x.lt(y).any())) + 2.0 * f64::from(u8::from(x.lt(y).all()))),
                 R::splat(f64::from(x.lt(y).bits())),
-                R::from_lanes(|lane| x.lane(7 - lane)),
-                R::from_lanes(|lane| if x.lt(y).lane(lane) { 1.0 } else { 0.0 }),
+                R::from_fn(|lane| x.lane(7 - lane)),
+                R::from_fn(|lane| if x.lt(y).lane(lane) { 1.0 } else { 0.0 }),
                 columns[0],
                 columns[1],
                 columns[2],
@@ -287,19 +287,20 @@ mod tests {
                 apart[3],
             ];
             let bits = |answer: R| {
-                let mut stored = Lanes::default();
+                let mut stored = F64Array::default();
                 answer.store(&mut stored);
                 stored.0.map(f64::to_bits)
             };
             let mut all = answers.map(bits).to_vec();
             // Loads that are added up: to some, and from others.
-            let mut sums = [Quad::new(Vector3::new(0.1, 0.2, 0.3), 0.4); 2];
-            for twin in R::twins([x, y, x + y, x * y], [y, x * y, x, x + y]) {
-                for sum in [R::Twin::load(&sums).plus(twin), R::Twin::load(&sums).minus_plus(twin)] {
+            let mut sums = [Packed4::new(Vector3::new(0.1, 0.2, 0.3), 0.4); 2];
+            for twin in R::row_pairs([x, y, x + y, x * y], [y, x * y, x, x + y]) {
+                for sum in [R::Simd4Pair::load(&sums).plus(twin), R::Simd4Pair::load(&sums).minus_plus(twin)]
+                {
                     sum.store(&mut sums);
                     let [one, other] = sums;
-                    let [a, b] =
-                        [one, other].map(|quad| [quad.vector.x, quad.vector.y, quad.vector.z, quad.scalar]);
+                    let [a, b] = [one, other]
+                        .map(|packed| [packed.vector.x, packed.vector.y, packed.vector.z, packed.scalar]);
                     all.push([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]].map(f64::to_bits));
                 }
             }
@@ -308,24 +309,24 @@ mod tests {
     }
 
     /// Sums of rows.
-    struct RowSums<'a>(&'a [Quad; 2]);
+    struct RowSums<'a>(&'a [Packed4; 2]);
 
     impl Kernel for RowSums<'_> {
-        type Output = [Quad; 5];
+        type Output = [Packed4; 5];
         #[inline(always)]
-        fn run<R: Octet>(self) -> [Quad; 5] {
-            let (one, other) = (R::Row::load(&self.0[0]), R::Row::load(&self.0[1]));
+        fn run<R: Simd8>(self) -> [Packed4; 5] {
+            let (one, other) = (R::Simd4::load(&self.0[0]), R::Simd4::load(&self.0[1]));
             let answers = [
                 one.plus(other),
                 one.minus(other),
                 one.times(other),
                 one.with_scalar_of(other),
-                R::Row::splat(self.0[0].scalar),
+                R::Simd4::splat(self.0[0].scalar),
             ];
             answers.map(|row| {
-                let mut quad = Quad::default();
-                row.store(&mut quad);
-                quad
+                let mut packed = Packed4::default();
+                row.store(&mut packed);
+                packed
             })
         }
     }
@@ -340,10 +341,10 @@ mod tests {
             x in prop::array::uniform8(any_number()),
             y in prop::array::uniform8(any_number()),
         ) {
-            let (x, y) = (Lanes(x), Lanes(y));
+            let (x, y) = (F64Array(x), F64Array(y));
             let plain = run_plain(Everything { x: &x, y: &y });
-            let quads = [0, 1].map(|part| Quad::new(Vector3::new(x.0[part], y.0[part], x.0[part + 2]), y.0[part + 2]));
-            let rows = run_plain(RowSums(&quads));
+            let packed = [0, 1].map(|part| Packed4::new(Vector3::new(x.0[part], y.0[part], x.0[part + 2]), y.0[part + 2]));
+            let rows = run_plain(RowSums(&packed));
             for set in InstructionSet::available() {
                 let answers = set.run(Everything { x: &x, y: &y });
                 for (place, (answer, expected)) in answers.iter().zip(&plain).enumerate() {
@@ -353,7 +354,7 @@ mod tests {
                         prop_assert!(both_nan || answer[lane] == expected[lane], "{set}, operation {place}");
                     }
                 }
-                let same = set.run(RowSums(&quads)).iter().zip(&rows).all(|(a, b)| {
+                let same = set.run(RowSums(&packed)).iter().zip(&rows).all(|(a, b)| {
                     [(a.vector.x, b.vector.x), (a.vector.y, b.vector.y), (a.vector.z, b.vector.z), (a.scalar, b.scalar)]
                         .iter().all(|(a, b)| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan())
                 });

@@ -10,22 +10,22 @@ use crate::real::{Mask, Real};
 /// AVX2 or AVX-512 they become vector instructions, without intrinsics and without a compiler flag.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct Lanes<const N: usize>(pub [f64; N]);
+pub struct F64Array<const N: usize>(pub [f64; N]);
 
 /// One truth value a lane, as an integer of all ones or all zeros: in this form the compiler keeps
 /// masks in vector registers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C, align(64))]
-pub struct LaneMask<const N: usize>([u64; N]);
+pub struct ArrayMask<const N: usize>([u64; N]);
 
-impl<const N: usize> Default for Lanes<N> {
+impl<const N: usize> Default for F64Array<N> {
     #[inline(always)]
     fn default() -> Self {
         Self([0.0; N])
     }
 }
 
-impl<const N: usize> From<[f64; N]> for Lanes<N> {
+impl<const N: usize> From<[f64; N]> for F64Array<N> {
     #[inline(always)]
     fn from(numbers: [f64; N]) -> Self {
         Self(numbers)
@@ -34,7 +34,7 @@ impl<const N: usize> From<[f64; N]> for Lanes<N> {
 
 macro_rules! lane_operator {
     ($operator:ident, $method:ident, $assign:tt) => {
-        impl<const N: usize> $operator for Lanes<N> {
+        impl<const N: usize> $operator for F64Array<N> {
             type Output = Self;
             #[inline(always)]
             fn $method(mut self, other: Self) -> Self {
@@ -51,7 +51,7 @@ lane_operator!(Sub, sub, -=);
 lane_operator!(Mul, mul, *=);
 lane_operator!(Div, div, /=);
 
-impl<const N: usize> Neg for Lanes<N> {
+impl<const N: usize> Neg for F64Array<N> {
     type Output = Self;
     #[inline(always)]
     fn neg(mut self) -> Self {
@@ -62,14 +62,14 @@ impl<const N: usize> Neg for Lanes<N> {
     }
 }
 
-impl<const N: usize> AddAssign for Lanes<N> {
+impl<const N: usize> AddAssign for F64Array<N> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<const N: usize> SubAssign for Lanes<N> {
+impl<const N: usize> SubAssign for F64Array<N> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
@@ -78,7 +78,7 @@ impl<const N: usize> SubAssign for Lanes<N> {
 
 macro_rules! mask_operator {
     ($operator:ident, $method:ident, $assign:tt) => {
-        impl<const N: usize> $operator for LaneMask<N> {
+        impl<const N: usize> $operator for ArrayMask<N> {
             type Output = Self;
             #[inline(always)]
             fn $method(mut self, other: Self) -> Self {
@@ -93,7 +93,7 @@ macro_rules! mask_operator {
 mask_operator!(BitAnd, bitand, &=);
 mask_operator!(BitOr, bitor, |=);
 
-impl<const N: usize> Not for LaneMask<N> {
+impl<const N: usize> Not for ArrayMask<N> {
     type Output = Self;
     #[inline(always)]
     fn not(mut self) -> Self {
@@ -104,7 +104,7 @@ impl<const N: usize> Not for LaneMask<N> {
     }
 }
 
-impl<const N: usize> Mask for LaneMask<N> {
+impl<const N: usize> Mask for ArrayMask<N> {
     #[inline(always)]
     fn splat(value: bool) -> Self {
         Self([(value as u64).wrapping_neg(); N])
@@ -130,12 +130,12 @@ impl<const N: usize> Mask for LaneMask<N> {
 macro_rules! lane_comparison {
     ($method:ident, $symbol:tt) => {
         #[inline(always)]
-        fn $method(self, other: Self) -> LaneMask<N> {
+        fn $method(self, other: Self) -> ArrayMask<N> {
             let mut mask = [0; N];
             for lane in 0..N {
                 mask[lane] = ((self.0[lane] $symbol other.0[lane]) as u64).wrapping_neg();
             }
-            LaneMask(mask)
+            ArrayMask(mask)
         }
     };
 }
@@ -152,8 +152,8 @@ macro_rules! lane_function {
     };
 }
 
-impl<const N: usize> Real for Lanes<N> {
-    type Mask = LaneMask<N>;
+impl<const N: usize> Real for F64Array<N> {
+    type Mask = ArrayMask<N>;
     const LANES: usize = N;
 
     #[inline(always)]
@@ -161,7 +161,7 @@ impl<const N: usize> Real for Lanes<N> {
         Self([value; N])
     }
     #[inline(always)]
-    fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
+    fn from_fn(mut number: impl FnMut(usize) -> f64) -> Self {
         let mut lanes = [0.0; N];
         for (lane, slot) in lanes.iter_mut().enumerate() {
             *slot = number(lane);
@@ -199,7 +199,7 @@ impl<const N: usize> Real for Lanes<N> {
     lane_comparison!(gt, >);
     lane_comparison!(ge, >=);
     #[inline(always)]
-    fn select(mask: LaneMask<N>, mut then: Self, otherwise: Self) -> Self {
+    fn select(mask: ArrayMask<N>, mut then: Self, otherwise: Self) -> Self {
         for lane in 0..N {
             then.0[lane] = if mask.0[lane] != 0 { then.0[lane] } else { otherwise.0[lane] };
         }
@@ -225,7 +225,7 @@ mod tests {
             x in prop::array::uniform8(-10.0..10.0_f64),
             y in prop::array::uniform8(-10.0..10.0_f64),
         ) {
-            let lanes = law_like(Lanes(x), Lanes(y));
+            let lanes = law_like(F64Array(x), F64Array(y));
             for lane in 0..8 {
                 prop_assert_eq!(lanes.lane(lane).to_bits(), law_like(x[lane], y[lane]).to_bits());
             }
@@ -234,11 +234,11 @@ mod tests {
 
     #[test]
     fn masks_know_any_and_all() {
-        let x = Lanes([1.0, 2.0, 3.0, 4.0]);
-        assert!(x.gt(Lanes::splat(3.0)).any());
-        assert!(!x.gt(Lanes::splat(3.0)).all());
-        assert!(x.gt(Lanes::splat(0.0)).all());
-        assert!(!LaneMask::<4>::splat(false).any());
+        let x = F64Array([1.0, 2.0, 3.0, 4.0]);
+        assert!(x.gt(F64Array::splat(3.0)).any());
+        assert!(!x.gt(F64Array::splat(3.0)).all());
+        assert!(x.gt(F64Array::splat(0.0)).all());
+        assert!(!ArrayMask::<4>::splat(false).any());
         assert_eq!(x.sum_lanes(), 10.0);
     }
 }

@@ -1,17 +1,17 @@
 //! Eight numbers in plain Rust, for every processor.
 
-use super::{Octet, Quad, Row, side_by_side};
-use crate::lanes::Lanes;
+use super::{Packed4, Simd4, Simd8, side_by_side};
+use crate::array::F64Array;
 use crate::vector::Vector3;
 
-impl Row for [f64; 4] {
+impl Simd4 for [f64; 4] {
     #[inline(always)]
-    fn load(quad: &Quad) -> Self {
-        [quad.vector.x, quad.vector.y, quad.vector.z, quad.scalar]
+    fn load(packed: &Packed4) -> Self {
+        [packed.vector.x, packed.vector.y, packed.vector.z, packed.scalar]
     }
     #[inline(always)]
-    fn store(self, quad: &mut Quad) {
-        *quad = Quad::new(Vector3::new(self[0], self[1], self[2]), self[3]);
+    fn store(self, packed: &mut Packed4) {
+        *packed = Packed4::new(Vector3::new(self[0], self[1], self[2]), self[3]);
     }
     #[inline(always)]
     fn splat(value: f64) -> Self {
@@ -35,15 +35,15 @@ impl Row for [f64; 4] {
     }
 }
 
-impl Octet for Lanes<8> {
-    type Row = [f64; 4];
-    type Twin = [Self::Row; 2];
+impl Simd8 for F64Array<8> {
+    type Simd4 = [f64; 4];
+    type Simd4Pair = [Self::Simd4; 2];
     #[inline(always)]
-    fn load(source: &Lanes<8>) -> Self {
+    fn load(source: &F64Array<8>) -> Self {
         *source
     }
     #[inline(always)]
-    fn store(self, target: &mut Lanes<8>) {
+    fn store(self, target: &mut F64Array<8>) {
         *target = self;
     }
     #[inline(always)]
@@ -68,7 +68,7 @@ impl Octet for Lanes<8> {
     }
 
     #[inline(always)]
-    fn twins(first: [Self; 4], second: [Self; 4]) -> [Self::Twin; 8] {
+    fn row_pairs(first: [Self; 4], second: [Self; 4]) -> [Self::Simd4Pair; 8] {
         side_by_side(Self::rows(first), Self::rows(second))
     }
 }

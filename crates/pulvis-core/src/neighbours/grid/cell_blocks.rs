@@ -1,23 +1,23 @@
 //! The order of the cells of a level.
 
-/// Cells are gathered in bricks of up to eight cells along each edge, so that what is near in space is
-/// near in order and a stretch of rows is a compact body: bricks follow each other line by line, and
+/// Cells are inputs in cell_blocks of up to eight cells along each edge, so that what is near in space is
+/// near in order and a stretch of rows is a compact body: cell_blocks follow each other line by line, and
 /// the cells of a brick in Morton order.
 ///
 /// Either part of a cell's number is a sum of one term for each axis; so are numbers as a whole, and
 /// the terms come from tables.
 #[derive(Clone, Debug)]
-pub(super) struct Bricks {
+pub(super) struct CellBlocks {
     terms: [Vec<u32>; 3],
-    /// Cells of all bricks, also of those that are there only to fill bricks up.
+    /// Cells of all cell_blocks, also of those that are there only to fill cell_blocks up.
     total: u32,
 }
 
-/// Edge of the largest bricks: two to this power.
+/// Edge of the largest cell_blocks: two to this power.
 const MOST_BITS: u32 = 3;
 
-impl Bricks {
-    /// Bricks that hold so many cells along each axis; their product must be below 2³².
+impl CellBlocks {
+    /// CellBlocks that hold so many cells along each axis; their product must be below 2³².
     pub(super) fn new(cells: [u32; 3]) -> Self {
         let bits = cells.map(brick_bits);
         let brick = 1_u32 << bits.iter().sum::<u32>();
@@ -32,13 +32,13 @@ impl Bricks {
         Self { terms, total: stride }
     }
 
-    /// Number of cells along an axis when bricks are filled up.
+    /// Number of cells along an axis when cell_blocks are filled up.
     pub(super) fn padded(cells: f64) -> f64 {
         let edge = f64::from(1_u32 << brick_bits(cells as u32));
         (cells / edge).ceil() * edge
     }
 
-    /// Number of cells in all bricks.
+    /// Number of cells in all cell_blocks.
     pub(super) fn total(&self) -> u32 {
         self.total
     }
@@ -49,15 +49,15 @@ impl Bricks {
         self.terms[axis].len() as u32
     }
 
-    /// What a cell's place along an axis adds to its number.
+    /// What a cell's coordinate along an axis adds to its number.
     #[inline(always)]
-    pub(super) fn term(&self, axis: usize, place: u32) -> u32 {
-        self.terms[axis][place as usize]
+    pub(super) fn term(&self, axis: usize, coordinate: u32) -> u32 {
+        self.terms[axis][coordinate as usize]
     }
 }
 
-/// Edge of the bricks along an axis of so many cells, as a power of two: the largest for which
-/// filling bricks up adds no more than a third.
+/// Edge of the cell_blocks along an axis of so many cells, as a power of two: the largest for which
+/// filling cell_blocks up adds no more than a third.
 fn brick_bits(cells: u32) -> u32 {
     let few_more = |bits: &u32| {
         let padded = u64::from(cells).next_multiple_of(1 << bits);
@@ -66,15 +66,15 @@ fn brick_bits(cells: u32) -> u32 {
     (0..=MOST_BITS).rev().find(few_more).unwrap_or(0)
 }
 
-/// The bits of a place along an axis, each moved to where it belongs among those of all axes.
-fn spread(place: u32, axis: usize, bits: [u32; 3]) -> u32 {
+/// The bits of a coordinate along an axis, each moved to where it belongs among those of all axes.
+fn spread(coordinate: u32, axis: usize, bits: [u32; 3]) -> u32 {
     let mut number = 0;
     let mut position = 0;
     for bit in 0..MOST_BITS {
         for (other, &count) in bits.iter().enumerate() {
             if bit < count {
                 if other == axis {
-                    number |= (place >> bit & 1) << position;
+                    number |= (coordinate >> bit & 1) << position;
                 }
                 position += 1;
             }
@@ -88,12 +88,14 @@ mod tests {
     use super::*;
 
     fn numbers(cells: [u32; 3]) -> Vec<u32> {
-        let bricks = Bricks::new(cells);
+        let cell_blocks = CellBlocks::new(cells);
         let mut numbers = Vec::new();
         for z in 0..cells[2] {
             for y in 0..cells[1] {
-                numbers
-                    .extend((0..cells[0]).map(|x| bricks.term(0, x) + bricks.term(1, y) + bricks.term(2, z)));
+                numbers.extend(
+                    (0..cells[0])
+                        .map(|x| cell_blocks.term(0, x) + cell_blocks.term(1, y) + cell_blocks.term(2, z)),
+                );
             }
         }
         numbers
@@ -106,24 +108,27 @@ mod tests {
             found.sort_unstable();
             found.dedup();
             assert_eq!(found.len() as u32, cells.iter().product::<u32>());
-            assert!(found.iter().all(|&number| number < Bricks::new(cells).total()));
+            assert!(found.iter().all(|&number| number < CellBlocks::new(cells).total()));
         }
     }
 
     #[test]
     fn filling_up_adds_little_and_is_counted() {
         for cells in 1..100_u32 {
-            let padded = Bricks::padded(f64::from(cells));
+            let padded = CellBlocks::padded(f64::from(cells));
             assert!(padded >= f64::from(cells) && 3.0 * padded <= 4.0 * f64::from(cells));
-            assert_eq!(f64::from(Bricks::new([cells, 1, 1]).total()), padded);
+            assert_eq!(f64::from(CellBlocks::new([cells, 1, 1]).total()), padded);
         }
     }
 
     #[test]
     fn a_brick_is_a_cube_in_morton_order() {
-        let bricks = Bricks::new([16, 16, 16]);
-        assert_eq!((bricks.term(0, 1), bricks.term(1, 1), bricks.term(2, 1)), (1, 2, 4));
-        assert_eq!((bricks.term(0, 2), bricks.term(1, 2), bricks.term(2, 2)), (8, 16, 32));
-        assert_eq!((bricks.term(0, 8), bricks.term(1, 8), bricks.term(2, 8)), (512, 1024, 2048));
+        let cell_blocks = CellBlocks::new([16, 16, 16]);
+        assert_eq!((cell_blocks.term(0, 1), cell_blocks.term(1, 1), cell_blocks.term(2, 1)), (1, 2, 4));
+        assert_eq!((cell_blocks.term(0, 2), cell_blocks.term(1, 2), cell_blocks.term(2, 2)), (8, 16, 32));
+        assert_eq!(
+            (cell_blocks.term(0, 8), cell_blocks.term(1, 8), cell_blocks.term(2, 8)),
+            (512, 1024, 2048)
+        );
     }
 }

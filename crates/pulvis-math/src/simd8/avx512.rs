@@ -6,8 +6,8 @@ use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign
 
 use super::avx2::Ymm;
 use super::operators::{lane_by_lane, octet_operators};
-use super::{Kernel, Octet, Quad, Twin};
-use crate::lanes::Lanes;
+use super::{Kernel, Packed4, Simd4Pair, Simd8};
+use crate::array::F64Array;
 use crate::real::{Mask, Real};
 
 /// The kernel compiled for AVX-512.
@@ -23,9 +23,9 @@ pub(super) unsafe fn run<K: Kernel>(kernel: K) -> K::Output {
 #[derive(Clone, Copy)]
 pub(super) struct Zmm(__m512d);
 
-/// Two quads.
+/// Two packed vectors.
 #[derive(Clone, Copy)]
-pub(super) struct Quads(__m512d);
+pub(super) struct Packed4s(__m512d);
 
 /// One bit a lane.
 #[derive(Clone, Copy, Debug)]
@@ -196,13 +196,13 @@ fn vectors_less(ones: __m512d, others: __m512d) -> __m512d {
 }
 
 #[inline(always)]
-fn lows(one: __m512d, other: __m512d) -> Quads {
-    unsafe { Quads(_mm512_shuffle_f64x2::<0b01_00_01_00>(one, other)) }
+fn lows(one: __m512d, other: __m512d) -> Packed4s {
+    unsafe { Packed4s(_mm512_shuffle_f64x2::<0b01_00_01_00>(one, other)) }
 }
 
 #[inline(always)]
-fn highs(one: __m512d, other: __m512d) -> Quads {
-    unsafe { Quads(_mm512_shuffle_f64x2::<0b11_10_11_10>(one, other)) }
+fn highs(one: __m512d, other: __m512d) -> Packed4s {
+    unsafe { Packed4s(_mm512_shuffle_f64x2::<0b11_10_11_10>(one, other)) }
 }
 
 /// Rows 0 and 4, 1 and 5, 2 and 6, 3 and 7 of four columns.
@@ -224,16 +224,16 @@ fn pairs_of_rows(columns: [Zmm; 4]) -> [__m512d; 4] {
     }
 }
 
-impl Octet for Zmm {
-    type Row = Ymm;
-    type Twin = Quads;
+impl Simd8 for Zmm {
+    type Simd4 = Ymm;
+    type Simd4Pair = Packed4s;
 
     #[inline(always)]
-    fn load(source: &Lanes<8>) -> Self {
+    fn load(source: &F64Array<8>) -> Self {
         unsafe { Self(_mm512_load_pd(source.0.as_ptr())) }
     }
     #[inline(always)]
-    fn store(self, target: &mut Lanes<8>) {
+    fn store(self, target: &mut F64Array<8>) {
         unsafe { _mm512_store_pd(target.0.as_mut_ptr(), self.0) }
     }
 
@@ -266,7 +266,7 @@ impl Octet for Zmm {
         ]
     }
     #[inline(always)]
-    fn twins(first: [Self; 4], second: [Self; 4]) -> [Quads; 8] {
+    fn row_pairs(first: [Self; 4], second: [Self; 4]) -> [Packed4s; 8] {
         let [a_0_4, a_1_5, a_2_6, a_3_7] = pairs_of_rows(first);
         let [b_0_4, b_1_5, b_2_6, b_3_7] = pairs_of_rows(second);
         [
@@ -282,14 +282,14 @@ impl Octet for Zmm {
     }
 }
 
-impl Twin for Quads {
+impl Simd4Pair for Packed4s {
     #[inline(always)]
-    fn load(quads: &[Quad; 2]) -> Self {
-        unsafe { Self(_mm512_loadu_pd((&raw const *quads).cast())) }
+    fn load(packed: &[Packed4; 2]) -> Self {
+        unsafe { Self(_mm512_loadu_pd((&raw const *packed).cast())) }
     }
     #[inline(always)]
-    fn store(self, quads: &mut [Quad; 2]) {
-        unsafe { _mm512_storeu_pd((&raw mut *quads).cast(), self.0) }
+    fn store(self, packed: &mut [Packed4; 2]) {
+        unsafe { _mm512_storeu_pd((&raw mut *packed).cast(), self.0) }
     }
     #[inline(always)]
     fn plus(self, other: Self) -> Self {

@@ -5,8 +5,8 @@ use std::fmt;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
 use super::operators::{lane_by_lane, octet_operators};
-use super::{Kernel, Octet, Quad, Row, side_by_side};
-use crate::lanes::Lanes;
+use super::{Kernel, Packed4, Simd4, Simd8, side_by_side};
+use crate::array::F64Array;
 use crate::real::{Mask, Real};
 
 /// The kernel compiled for AVX2.
@@ -33,14 +33,14 @@ pub(super) struct Mask2(__m256d, __m256d);
 // SAFETY of all blocks below: values of these types exist only within a kernel that `run` has been
 // called for, so the processor has the instructions.
 
-impl Row for Ymm {
+impl Simd4 for Ymm {
     #[inline(always)]
-    fn load(quad: &Quad) -> Self {
-        unsafe { Self(_mm256_load_pd((&raw const *quad).cast())) }
+    fn load(packed: &Packed4) -> Self {
+        unsafe { Self(_mm256_load_pd((&raw const *packed).cast())) }
     }
     #[inline(always)]
-    fn store(self, quad: &mut Quad) {
-        unsafe { _mm256_store_pd((&raw mut *quad).cast(), self.0) }
+    fn store(self, packed: &mut Packed4) {
+        unsafe { _mm256_store_pd((&raw mut *packed).cast(), self.0) }
     }
     #[inline(always)]
     fn splat(value: f64) -> Self {
@@ -217,17 +217,17 @@ unsafe fn transposed(rows: [__m256d; 4]) -> [__m256d; 4] {
     }
 }
 
-impl Octet for Ymm2 {
-    type Row = Ymm;
-    type Twin = [Self::Row; 2];
+impl Simd8 for Ymm2 {
+    type Simd4 = Ymm;
+    type Simd4Pair = [Self::Simd4; 2];
 
     #[inline(always)]
-    fn load(source: &Lanes<8>) -> Self {
+    fn load(source: &F64Array<8>) -> Self {
         let start = source.0.as_ptr();
         unsafe { Self(_mm256_load_pd(start), _mm256_load_pd(start.add(4))) }
     }
     #[inline(always)]
-    fn store(self, target: &mut Lanes<8>) {
+    fn store(self, target: &mut F64Array<8>) {
         let start = target.0.as_mut_ptr();
         unsafe {
             _mm256_store_pd(start, self.0);
@@ -257,7 +257,7 @@ impl Octet for Ymm2 {
     }
 
     #[inline(always)]
-    fn twins(first: [Self; 4], second: [Self; 4]) -> [Self::Twin; 8] {
+    fn row_pairs(first: [Self; 4], second: [Self; 4]) -> [Self::Simd4Pair; 8] {
         side_by_side(Self::rows(first), Self::rows(second))
     }
 }

@@ -1,0 +1,251 @@
+//! One sweep over all contacts: chunk by chunk, each finished when its forces and torques are complete.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
+
+use super::block::Partner;
+use super::chunk::{Chunk, HaloContribution};
+use super::deferred::DeferredChunks;
+use super::kernel::{self, Advance, KinematicColumns, Prefetch, WallMotionNow};
+use crate::particles::ForceTorque;
+use crate::phases::Stopwatch;
+use crate::shared::Shared;
+
+/// What a sweep over all contacts works on.
+#[derive(Clone, Copy)]
+pub(crate) struct Sweep<'a> {
+    /// Room for forces and torques that are not complete at once: for all rows, and for all halos behind them.
+    pub(crate) forces_and_torques: Shared<'a, ForceTorque>,
+    pub(crate) moving: KinematicColumns<'a>,
+    pub(crate) walls: &'a [WallMotionNow],
+    pub(crate) advance: &'a Advance,
+    /// Whether `forces_and_torques` are to hold those on all rows at the end, as they were finished.
+    pub(crate) keep: bool,
+}
+
+/// Chunks whose contacts are still to be computed before the forces and torques on a chunk are complete.
+#[derive(Debug, Default)]
+pub(super) struct DependencyCounter {
+    left: AtomicU32,
+    start: u32,
+    /// The worker of the pool that has computed the chunk's own contacts.
+    worker: AtomicUsize,
+}
+
+impl Clone for DependencyCounter {
+    fn clone(&self) -> Self {
+        Self::from(self.start)
+    }
+}
+
+impl DependencyCounter {
+    pub(super) fn from(start: u32) -> Self {
+        Self { left: AtomicU32::new(start), start, ..Self::default() }
+    }
+
+    /// Whether this was the last one; the countdown then begins anew.
+    fn is_over(&self) -> bool {
+        // What others wrote before they counted down is seen by the last one.
+        let over = self.left.fetch_sub(1, Ordering::AcqRel) == 1;
+        if over {
+            self.begin_anew();
+        }
+        over
+    }
+
+    /// Whether only the chunk itself has still to count down; then nobody else will.
+    fn has_one_left(&self) -> bool {
+        self.left.load(Ordering::Acquire) == 1
+    }
+
+    fn begin_anew(&self) {
+        self.left.store(self.start, Ordering::Relaxed);
+    }
+}
+
+/// The halos of all chunks.
+#[derive(Clone, Copy)]
+pub(super) struct Halos<'a> {
+    /// One behind the other.
+    pub(super) rows: &'a [u32],
+    /// Where the halo of each chunk begins, and the end.
+    pub(super) starts: &'a [usize],
+    /// Number of all rows: the sums of halos stand behind theirs.
+    pub(super) row_count: usize,
+}
+
+impl<'a> Halos<'a> {
+    /// The halo of a chunk; none behind the last chunk.
+    fn of(self, number: usize) -> &'a [u32] {
+        match self.starts.get(number..number + 2) {
+            Some(&[start, end]) => &self.rows[start..end],
+            _ => &[],
+        }
+    }
+}
+
+/// Where a worker of the pool adds up the forces and torques of one chunk after the other.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sums {
+    present: Vec<ForceTorque>,
+    /// Those of the next chunk: the first `cleared` of them are zero.
+    next: Vec<ForceTorque>,
+    cleared: usize,
+}
+
+impl Sums {
+    /// So many sums, all zero, for the present chunk, and as many as the next one is likely to need, which
+    /// somebody `clears` on the way: all at once, the processor would wait for its caches.
+    fn turn(
+        &mut self,
+        [count, next_count]: [usize; 2],
+        clears: bool,
+    ) -> (&mut [ForceTorque], &mut [ForceTorque]) {
+        std::mem::swap(&mut self.present, &mut self.next);
+        if self.present.len() < count {
+            self.present.resize(count, ForceTorque::default());
+        }
+        let (_, left) = self.present[..count].split_at_mut(self.cleared.min(count));
+        left.fill(ForceTorque::default());
+        if self.next.len() < next_count {
+            self.next.resize(next_count, ForceTorque::default());
+        }
+        self.cleared = if clears { next_count } else { 0 };
+        (&mut self.present[..count], &mut self.next[..next_count])
+    }
+
+    /// Memory [byte].
+    pub(super) fn memory_size(&self) -> usize {
+        size_of_val(&self.present[..]) + size_of_val(&self.next[..])
+    }
+}
+
+/// A sweep on its way; see [`Sweep`].
+pub(super) struct ForcePass<'a, F> {
+    pub(super) sweep: Sweep<'a>,
+    pub(super) chunks: Shared<'a, Chunk>,
+    /// One for each worker of the pool.
+    pub(super) sums: Shared<'a, Sums>,
+    pub(super) pending: &'a [DependencyCounter],
+    pub(super) deferred: &'a DeferredChunks,
+    pub(super) halos: Halos<'a>,
+    /// Told the number of a chunk, its rows and the complete forces and torques on them.
+    pub(super) finish: F,
+}
+
+impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
+    /// Computes the contacts of a chunk, and finishes what is complete with it.
+    ///
+    /// # Safety
+    /// No other thread works as this `worker`, and none computes this chunk.
+    pub(super) unsafe fn compute(&self, worker: usize, number: usize) {
+        let Sweep { forces_and_torques, keep, .. } = self.sweep;
+        let pending = &self.pending[number];
+        // SAFETY: the caller's; nobody looks at a chunk before it has counted down below.
+        let (sums, chunk) = unsafe { (self.sums.get_mut(worker), self.chunks.get_mut(number)) };
+        let sums = self.sum_contacts(number, chunk, sums);
+        // From here on the chunk is only read, until the next sweep.
+        let (chunk, rows) = (&*chunk, chunk.rows.clone());
+        let (own, halo) = sums.split_at_mut(rows.len());
+        let start = self.halos.row_count + self.halos.starts[number];
+        // SAFETY: only this chunk writes these slots; they are read after it has counted down.
+        unsafe { forces_and_torques.range_mut(start..start + halo.len()) }.copy_from_slice(halo);
+        if pending.has_one_left() {
+            pending.begin_anew();
+            // SAFETY (here and below): all chunks with a part in this one have counted down, and this
+            // thread alone has seen the end of the countdown.
+            unsafe { self.complete(chunk, own) };
+            (self.finish)(number, rows.clone(), own);
+            if keep {
+                // SAFETY: the forces and torques of these rows, which this thread alone has finished.
+                unsafe { forces_and_torques.range_mut(rows) }.copy_from_slice(own);
+            }
+            self.deferred.count_finished();
+        } else {
+            // SAFETY: the sums of these rows, which are not complete.
+            unsafe { forces_and_torques.range_mut(rows) }.copy_from_slice(own);
+            pending.worker.store(worker, Ordering::Relaxed);
+            self.count_down(worker, number);
+        }
+        for &later in &chunk.dependents {
+            self.count_down(worker, later as usize);
+        }
+    }
+
+    /// Adds up the forces and torques of a chunk's contacts: those on its rows, then those on its halo.
+    fn sum_contacts<'b>(
+        &self,
+        number: usize,
+        chunk: &mut Chunk,
+        sums: &'b mut Sums,
+    ) -> &'b mut [ForceTorque] {
+        let Sweep { moving, walls, advance, .. } = self.sweep;
+        let Chunk { rows, groups, phases, approach, .. } = chunk;
+        // The largest group comes first, and the next chunk is mostly the one behind this.
+        let next_halo = self.halos.of(number + 1);
+        let counts = [rows.len() + self.halos.of(number).len(), rows.len() + next_halo.len()];
+        let pairs_come_first = groups.first().is_some_and(|group| group.partner == Partner::Particle);
+        let (sums, next_sums) = sums.turn(counts, pairs_come_first);
+        let mut prefetch =
+            Prefetch { rows: rows.end..rows.end + rows.len(), halo: next_halo, sums: next_sums };
+        let mut clock = Stopwatch::start(advance.timed);
+        for group in groups {
+            let prefetch = std::mem::take(&mut prefetch);
+            // SAFETY: rows and slots were listed for these columns and sums. `finish`, which writes rows, is
+            // not called for rows of this chunk or its halo before it has counted down.
+            unsafe { kernel::sweep(group, sums, moving, walls, advance, *approach, prefetch) };
+            clock.lap(match group.partner {
+                Partner::Particle => &mut phases.pairs,
+                Partner::Wall => &mut phases.walls,
+            });
+        }
+        sums
+    }
+
+    /// Counts a chunk with a part in another one. Who does the last of them finishes the other at once if it has
+    /// computed its contacts too.
+    fn count_down(&self, worker: usize, number: usize) {
+        let pending = &self.pending[number];
+        if pending.is_over() {
+            let owner = pending.worker.load(Ordering::Relaxed);
+            if owner == worker {
+                self.deferred.count_finished();
+                // SAFETY: this thread alone has seen the end of the countdown.
+                unsafe { self.finish_stored(number) };
+            } else {
+                self.deferred.leave(owner, number);
+            }
+        }
+    }
+
+    /// Finishes a chunk whose sums stand in the forces and torques of its rows.
+    ///
+    /// # Safety
+    /// All chunks with a part in this one have counted down, and no other thread finishes it.
+    pub(super) unsafe fn finish_stored(&self, number: usize) {
+        // SAFETY: the caller's.
+        unsafe {
+            let chunk = self.chunks.get(number);
+            let own = self.sweep.forces_and_torques.range_mut(chunk.rows.clone());
+            self.complete(chunk, own);
+            (self.finish)(number, chunk.rows.clone(), own);
+        }
+    }
+
+    /// Adds to the forces and torques on the rows of a chunk what earlier chunks' halos hold of them, in their order.
+    ///
+    /// # Safety
+    /// All contacts of the chunk and of those with a part in it have been computed.
+    unsafe fn complete(&self, chunk: &Chunk, own: &mut [ForceTorque]) {
+        let Halos { rows, row_count, .. } = self.halos;
+        for HaloContribution { slots } in &chunk.halo_contributions {
+            for slot in slots.clone() {
+                // SAFETY: the caller's; slots of halos lie behind those of all rows.
+                let part = unsafe { self.sweep.forces_and_torques.get(row_count + slot) };
+                let sum = &mut own[rows[slot] as usize - chunk.rows.start];
+                sum.force.vector += part.force.vector;
+                sum.torque.vector += part.torque.vector;
+            }
+        }
+    }
+}
