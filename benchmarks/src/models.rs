@@ -82,6 +82,8 @@ pub(crate) fn read(text: &str) -> Result<ContactModel, Failure> {
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+    use pulvis_math::elementary;
+
     use super::*;
 
     #[test]
@@ -98,7 +100,7 @@ mod tests {
     #[test]
     fn both_laws_damp_the_mean_pair_alike_within_one_percent() {
         use pulvis_contact::Pair;
-        let mass = 4.0 / 3.0 * std::f64::consts::PI * 2500.0 * 0.5e-3_f64.powi(3);
+        let mass = 4.0 / 3.0 * std::f64::consts::PI * 2500.0 * elementary::powi(0.5e-3, 3);
         let pair = Pair::spheres(mass, mass, 0.5e-3, 0.5e-3);
         let luding = model(LawChoice::Luding, 0.0, ConventionChoice::Own).unwrap();
         let dashpot = luding.laws.viscosity.largest_coefficient(&pair);

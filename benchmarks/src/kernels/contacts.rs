@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use pulvis_contact::{ContactEnergies, ContactKinematics, ContactLaws, NormalLaw};
-use pulvis_math::{Real, Vector3};
+use pulvis_math::{Real, Vector3, elementary};
 
 use super::stored::MemoryColumns;
 
@@ -96,7 +96,7 @@ impl<S: Real> Store<S> {
 
 /// Numbers between −1 and 1 that follow no pattern.
 fn noise(seed: usize) -> f64 {
-    (1e4 * (1.0 + seed as f64).sin()).sin()
+    elementary::sin(1e4 * elementary::sin(1.0 + seed as f64))
 }
 
 /// 0.5 mm ± 20 %.
@@ -105,7 +105,7 @@ fn radius(body: usize) -> f64 {
 }
 
 fn mass(radius: f64) -> f64 {
-    4.0 / 3.0 * std::f64::consts::PI * 2500.0 * radius.powi(3)
+    4.0 / 3.0 * std::f64::consts::PI * 2500.0 * elementary::powi(radius, 3)
 }
 
 /// Up to 1 % of the diameter, 10 % less in every other sweep: contacts load and unload.
@@ -122,5 +122,5 @@ fn velocity(seed: usize, turn: usize, axis: usize) -> f64 {
 fn normal(contact: usize, turn: usize) -> [f64; 3] {
     let (height, angle) = (noise(5000 + contact), TAU * noise(6000 + contact) + 2e-5 * turn as f64);
     let radius = (1.0 - height * height).sqrt();
-    [radius * angle.cos(), radius * angle.sin(), height]
+    [radius * elementary::cos(angle), radius * elementary::sin(angle), height]
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use pulvis_contact::ContactModel;
 use pulvis_core::walls::Wall;
 use pulvis_core::{Background, Domain, Particle, Setup};
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 
 use super::{of_one_material, table};
 use crate::failure::Failure;
@@ -24,7 +24,7 @@ pub(crate) fn setup(path: &Path, model: ContactModel, angle: f64) -> Result<Setu
     let particles = table::read(path)?;
     let upper = Vector3::new(period(&particles, 0), period(&particles, 1), 0.0);
     let floor = Wall::fixed("floor", 0, Vector3::zero(), Vector3::new(0.0, 0.0, 1.0));
-    let gravity = Vector3::new(GRAVITY * angle.sin(), 0.0, -GRAVITY * angle.cos());
+    let gravity = Vector3::new(GRAVITY * elementary::sin(angle), 0.0, -GRAVITY * elementary::cos(angle));
     Ok(Setup {
         walls: vec![floor],
         domain: Domain::periodic(Vector3::zero(), upper, [true, true, false]),

@@ -3,7 +3,7 @@
 use pulvis_contact::ContactModel;
 use pulvis_core::arrangement::{Lattice, gaussian_vector, lattice, random_stream};
 use pulvis_core::{Particle, Setup};
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 use rand::seq::SliceRandom;
 
 use super::{RADIUS, edge_of_cube, of_one_material, periodic_cube, sphere};
@@ -35,7 +35,7 @@ pub(crate) fn setup(plan: &Plan, model: ContactModel) -> Result<Setup, Failure> 
     let mut particles = large_spheres(plan, large_radius, edge);
     // Finer and finer until there is room for all; below one diameter the small ones overlap a
     // little, which contacts can bear.
-    let mut per_edge = (plan.small as f64).cbrt().ceil() as usize;
+    let mut per_edge = elementary::cbrt(plan.small as f64).ceil() as usize;
     let mut free = loop {
         let free = free_sites(&particles, edge, per_edge);
         if free.len() >= plan.small {

@@ -5,7 +5,7 @@ use std::path::Path;
 use pulvis_contact::ContactModel;
 use pulvis_core::arrangement::{Lattice, Random, Sizes, gaussian_vector, lattice, random_stream};
 use pulvis_core::{Particle, Setup};
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 use rand::seq::SliceRandom;
 
 use super::{RADIUS, edge_of_cube, of_one_material, periodic_cube, sphere, table};
@@ -34,7 +34,7 @@ fn made_anew(count: usize, random: &mut Random) -> Result<Vec<Particle>, Failure
     let sizes = Sizes::Uniform { minimum: 0.8 * RADIUS, maximum: 1.2 * RADIUS };
     let radii = sizes.draw(count, random)?;
     let edge = edge_of_cube(radii.iter().copied(), SOLID_FRACTION);
-    let per_edge = (count as f64).cbrt().ceil() as usize;
+    let per_edge = elementary::cbrt(count as f64).ceil() as usize;
     let spacing = edge / per_edge as f64;
     let jitter = (0.5 - 1.2 * RADIUS / spacing).max(0.0);
     let lower = Vector3::new(0.5, 0.5, 0.5) * spacing;

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 use pulvis_contact::ContactModel;
 use pulvis_core::{Background, Domain, Interactions, Particle, Setup};
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 
 /// Mean radius [m].
 const RADIUS: f64 = 0.5e-3;
@@ -21,7 +21,7 @@ const TIME_STEP: f64 = 4e-6;
 
 /// A sphere of material 0.
 fn sphere(position: Vector3, radius: f64, velocity: Vector3) -> Particle {
-    let mass = 4.0 / 3.0 * PI * DENSITY * radius.powi(3);
+    let mass = 4.0 / 3.0 * PI * DENSITY * elementary::powi(radius, 3);
     Particle { material: 0, radius, mass, position, velocity, angular_velocity: Vector3::zero() }
 }
 
@@ -46,6 +46,6 @@ fn periodic_cube(edge: f64) -> Domain {
 
 /// The edge [m] of the cube in which the spheres fill a fraction of the volume.
 fn edge_of_cube(radii: impl Iterator<Item = f64>, fraction: f64) -> f64 {
-    let volume: f64 = radii.map(|radius| 4.0 / 3.0 * PI * radius.powi(3)).sum();
-    (volume / fraction).cbrt()
+    let volume: f64 = radii.map(|radius| 4.0 / 3.0 * PI * elementary::powi(radius, 3)).sum();
+    elementary::cbrt(volume / fraction)
 }

@@ -4,7 +4,7 @@ use pulvis_contact::ContactModel;
 use pulvis_core::Setup;
 use pulvis_core::arrangement::{Lattice, lattice, random_stream};
 use pulvis_core::walls::{Velocity, Wall, WallMotion};
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 
 use super::{RADIUS, of_one_material, sphere};
 use crate::failure::Failure;
@@ -18,7 +18,7 @@ const PRESSING_SPEED: f64 = 0.05;
 
 /// A tablet of `count` equal spheres.
 pub(crate) fn setup(count: usize, model: ContactModel) -> Result<Setup, Failure> {
-    let per_edge = (count as f64).cbrt().round() as usize;
+    let per_edge = elementary::cbrt(count as f64).round() as usize;
     if count == 0 || per_edge.pow(3) != count {
         return Err(Failure::NoCube(count));
     }

@@ -1,6 +1,6 @@
 //! Whole contacts close their energy balance and turn in space without losing their springs.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
 use pulvis_contact::conventions::{FrictionReference, LeverArm, RollingLever};
 use pulvis_contact::friction::SpringRotation;

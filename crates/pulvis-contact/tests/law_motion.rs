@@ -4,7 +4,7 @@
 //! test allows beyond the step's error is the size of the overlap against the radius, which the closed
 //! forms neglect.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
 use std::f64::consts::PI;
 

@@ -1,7 +1,7 @@
 //! The closed forms that the viscous laws and the attraction name in the catalogue, on integrated
 //! collisions of one pair.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
 use std::f64::consts::PI;
 

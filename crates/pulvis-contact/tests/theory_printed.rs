@@ -1,7 +1,7 @@
 //! The closed forms against numbers printed to ten or more digits in the specification, and against the
 //! papers' limits.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
 use pulvis_contact::theory::{
     Interpolation, LinearSpringDashpot, LudingPair, LudingParameters, NonContact, Regime, Stage, TheoryError,

@@ -1,7 +1,7 @@
 //! What must hold for every parameter set: bounds, continuity, and agreement between formulas found on
 //! different ways.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
 use proptest::prelude::*;
 use pulvis_contact::theory::{

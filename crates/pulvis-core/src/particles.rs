@@ -2,7 +2,7 @@
 
 use std::ops::Index;
 
-use pulvis_math::{Packed4, Vector3};
+use pulvis_math::{Packed4, Vector3, elementary};
 
 use crate::thread_pool::ThreadPool;
 
@@ -252,6 +252,6 @@ impl Particles {
 
     /// Total volume of the spheres, overlaps counted twice [m³].
     pub fn total_volume(&self) -> f64 {
-        self.radius.iter().map(|radius| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)).sum()
+        self.radius.iter().map(|&radius| 4.0 / 3.0 * std::f64::consts::PI * elementary::powi(radius, 3)).sum()
     }
 }

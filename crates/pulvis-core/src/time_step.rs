@@ -83,10 +83,11 @@ mod tests {
     use pulvis_math::Vector3;
 
     use super::*;
+    use pulvis_math::elementary;
 
     fn sphere(material: MaterialIndex, radius: f64) -> Particle {
         let (position, velocity, angular_velocity) = (Vector3::zero(), Vector3::zero(), Vector3::zero());
-        let mass = 4.0 / 3.0 * std::f64::consts::PI * 2000.0 * radius.powi(3);
+        let mass = 4.0 / 3.0 * std::f64::consts::PI * 2000.0 * elementary::powi(radius, 3);
         Particle { material, radius, mass, position, velocity, angular_velocity }
     }
 

@@ -1,5 +1,5 @@
 //! The bitwise contract: whatever only changes how fast the engine is leaves every bit as it was.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
 mod common;
 

@@ -3,7 +3,7 @@
 //! Springs that are stretched with velocities of one instant along normals of another take in a part
 //! of the normal motion as sliding. Between grains of very different size that part is large: a small
 //! grain sticks where it should slip (Vyas et al., arXiv:2410.14798).
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
 mod common;
 

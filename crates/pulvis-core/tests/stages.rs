@@ -1,5 +1,5 @@
 //! Between stages laws, walls and steps are switched: the ledger stays closed, contacts remember.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
 mod common;
 

@@ -1,6 +1,6 @@
 //! Units as text: `kg/m^3`, `kN/m`, `rad/s`, `g/cm3`.
 
-use pulvis_math::Dimension;
+use pulvis_math::{Dimension, elementary};
 use thiserror::Error;
 
 /// A unit with its dimension and the factor that leads to SI.
@@ -156,8 +156,8 @@ impl Unit {
         } else {
             (base.numerator, base.denominator)
         };
-        self.numerator *= above.powi(exponent.abs());
-        self.denominator *= below.powi(exponent.abs());
+        self.numerator *= elementary::powi(above, exponent.abs());
+        self.denominator *= elementary::powi(below, exponent.abs());
         let Dimension { mass, length, time } = base.dimension;
         for (sum, part) in exponents.iter_mut().zip([mass, length, time]) {
             *sum += exponent * i32::from(part);

@@ -1,5 +1,5 @@
 //! Renders a block of 20 000 spheres, to be looked at: `cargo run --release -p pulvis-io --example sample_picture -- <folder>`.
-#![allow(clippy::print_stderr)]
+#![allow(clippy::print_stderr, clippy::disallowed_methods)]
 
 use pulvis_io::picture::{OutlineBox, SphereScene, View, render_spheres};
 use pulvis_io::{ColourMap, IoError};

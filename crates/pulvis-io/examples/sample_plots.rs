@@ -1,5 +1,5 @@
 //! Draws sample figures into a folder, to be looked at: `cargo run -p pulvis-io --example sample_plots -- <folder>`.
-#![allow(clippy::print_stderr)]
+#![allow(clippy::print_stderr, clippy::disallowed_methods)]
 
 use pulvis_io::IoError;
 use pulvis_io::plot::{Chart, Figure, Series};

@@ -1,6 +1,12 @@
 //! Collisions of unequal bodies, at walls, with attraction and dashpots against closed forms.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    clippy::print_stderr
+)]
 
 use pulvis_input::Document;
 use pulvis_input::collision::CollisionScenario;

@@ -1,6 +1,12 @@
 //! The energy ledger of a whole protocol: pressed by servo walls, released, freed, pulled by a sticky plate.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    clippy::print_stderr
+)]
 
 mod protocol_scenarios;
 

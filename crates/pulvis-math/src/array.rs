@@ -2,6 +2,7 @@
 
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
+use crate::elementary;
 use crate::real::{Mask, Real};
 
 /// `N` numbers on which every operation acts lane by lane.
@@ -176,7 +177,7 @@ impl<const N: usize> Real for F64Array<N> {
     lane_function!(abs);
     fn powf(mut self, exponent: f64) -> Self {
         for lane in 0..N {
-            self.0[lane] = self.0[lane].powf(exponent);
+            self.0[lane] = elementary::powf(self.0[lane], exponent);
         }
         self
     }

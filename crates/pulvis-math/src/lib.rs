@@ -15,6 +15,7 @@
 
 mod array;
 mod dimension;
+pub mod elementary;
 mod prefetch;
 mod real;
 mod simd8;

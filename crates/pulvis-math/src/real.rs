@@ -3,6 +3,8 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
+use crate::elementary;
+
 /// The outcome of comparing two [`Real`]s: one truth value a lane.
 pub trait Mask: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
     /// The same truth value in every lane.
@@ -54,7 +56,8 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
-    /// `self` raised to `exponent`, lane by lane (slow: not vectorised).
+    /// `self` raised to `exponent`, lane by lane (slow: not vectorised), with the same bits on
+    /// every machine ([`elementary`]).
     fn powf(self, exponent: f64) -> Self;
     /// The smaller of two numbers (`other` where either is NaN).
     fn min(self, other: Self) -> Self;
@@ -150,7 +153,7 @@ impl Real for f64 {
     }
     #[inline(always)]
     fn powf(self, exponent: f64) -> Self {
-        f64::powf(self, exponent)
+        elementary::powf(self, exponent)
     }
     // `if a < b` and not `f64::min`: one instruction, where the standard function needs three for
     // its rule about NaN.

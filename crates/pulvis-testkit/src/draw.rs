@@ -1,6 +1,6 @@
 //! A small source of random numbers, so that cases are the same everywhere and for ever.
 
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 
 /// Random numbers from a seed (SplitMix64: Steele, Lea & Flood, OOPSLA 2014, figure 17).
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ impl Draw {
 
     /// A number from `low` to `high`, evenly in its logarithm.
     pub fn log_between(&mut self, low: f64, high: f64) -> f64 {
-        self.between(low.ln(), high.ln()).exp()
+        elementary::exp(self.between(elementary::ln(low), elementary::ln(high)))
     }
 
     /// True with this probability.

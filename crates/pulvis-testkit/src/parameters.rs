@@ -4,6 +4,7 @@ use pulvis_contact::catalogue::{
     InvalidParameter, Kind, LawEntry, Parameter, Presence, Range, Value, Values,
 };
 use pulvis_contact::{Pair, SpringSlider, friction};
+use pulvis_math::elementary;
 
 use crate::draw::Draw;
 
@@ -130,7 +131,7 @@ pub fn random_bodies(draw: &mut Draw) -> ((f64, f64), Option<(f64, f64)>) {
     let mut body = |near: f64| {
         let radius = near * draw.log_between(0.3, 3.0);
         let density = draw.between(500.0, 8000.0);
-        (density * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3), radius)
+        (density * 4.0 / 3.0 * std::f64::consts::PI * elementary::powi(radius, 3), radius)
     };
     let near = 1e-3;
     let (first, second) = (body(near), body(near));

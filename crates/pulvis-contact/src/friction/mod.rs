@@ -122,10 +122,11 @@ friction_laws![none, spring_slider];
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pulvis_math::elementary;
 
     /// A spring of length `length` that leans by `angle` out of the plane at right angles to z.
     fn leaning(length: f64, angle: f64) -> Vector3 {
-        Vector3::new(length * angle.cos(), 0.0, length * angle.sin())
+        Vector3::new(length * elementary::cos(angle), 0.0, length * elementary::sin(angle))
     }
 
     const NORMAL: Vector3 = Vector3::new(0.0, 0.0, 1.0);
@@ -135,7 +136,7 @@ mod tests {
         // From angles that change nothing over those of the series to those of the square root.
         for exponent in -12..=0 {
             for mantissa in [1.0, 2.1, 4.7] {
-                let angle = mantissa * 10.0_f64.powi(exponent);
+                let angle = mantissa * elementary::powi(10.0, exponent);
                 if angle < 1.5 {
                     let spring = rescaled(leaning(3e-7, angle), NORMAL);
                     assert_eq!((spring.y, spring.z), (0.0, 0.0));

@@ -239,6 +239,7 @@ impl SpringSlider {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pulvis_math::elementary;
 
     const LAW: SpringSlider =
         SpringSlider { stiffness: 100.0, dashpot: 0.0, dynamic_coefficient: 0.5, static_coefficient: 0.8 };
@@ -313,7 +314,7 @@ mod tests {
     fn the_torsion_spring_is_the_sliding_spring_in_one_dimension() {
         let (mut along, mut plane) = (0.0, Vector3::zero());
         for step in 0..200 {
-            let displacement = 1e-3 * (0.1 * f64::from(step)).sin();
+            let displacement = 1e-3 * elementary::sin(0.1 * f64::from(step));
             let motion = SpringMotion { velocity: 0.0, displacement, friction_reference: 0.3 };
             let (one, _) = LAW.respond_along(&motion, &mut along);
             let three = pull(displacement, 0.3, &mut plane);

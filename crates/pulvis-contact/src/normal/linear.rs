@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use pulvis_math::{Dimension, Real};
+use pulvis_math::{Dimension, Real, elementary};
 
 use super::{NormalLaw, NormalResponse};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
@@ -45,7 +45,7 @@ impl Linear {
     /// Spring stiffness k [N/m], and for each pair the dashpot γ = −2 ln e √(k m_r / (π² + ln² e))
     /// that gives the coefficient of restitution e (S1 eq. 4, solved for γ).
     pub fn from_restitution(stiffness: f64, restitution: f64) -> Self {
-        let log = restitution.ln();
+        let log = elementary::ln(restitution);
         let dashpot_per_root_mass = -2.0 * log * (stiffness / (PI * PI + log * log)).sqrt();
         Self { dashpot_per_root_mass, ..Self::new(stiffness, 0.0) }
     }
@@ -53,7 +53,7 @@ impl Linear {
     /// For each pair the spring k = m_r (π² + ln² e)/t_c² and dashpot γ = −2 m_r ln e / t_c that give
     /// the duration t_c [s] and the coefficient of restitution e (S1 eqs. 3 and 4, solved).
     pub fn from_contact_time(contact_time: f64, restitution: f64) -> Self {
-        let log = restitution.ln();
+        let log = elementary::ln(restitution);
         Self {
             stiffness_per_mass: (PI * PI + log * log) / (contact_time * contact_time),
             dashpot_per_mass: -2.0 * log / contact_time,

@@ -1,6 +1,7 @@
 //! Straight lines of the force law: stiffness, force-free overlap, tensile extremum, loop area.
 
 use super::parameters::{Interpolation, LudingPair};
+use pulvis_math::elementary;
 
 impl LudingPair {
     /// Excess `s = (k2(D) - k1)/k1` of the unloading stiffness after the history overlap `D` \[m\].
@@ -69,7 +70,7 @@ impl LudingPair {
         Some(match self.p.interpolation {
             Interpolation::Constant => overlap * (1.0 + c),
             Interpolation::Linear => 0.5 * self.dp() * (y + (y * (y + 4.0 * c)).sqrt()),
-            Interpolation::SquareRoot => self.dp() * depressed_cubic_root(y, y * c).powi(2),
+            Interpolation::SquareRoot => self.dp() * elementary::powi(depressed_cubic_root(y, y * c), 2),
         })
     }
 
@@ -95,13 +96,13 @@ fn depressed_cubic_root(p: f64, q: f64) -> f64 {
     let third = p / 3.0;
     let discriminant = half * half - third * third * third;
     let z = if discriminant >= 0.0 {
-        let u = (half + discriminant.sqrt()).cbrt();
+        let u = elementary::cbrt(half + discriminant.sqrt());
         // The textbook's second cube root is third/u; taking it from there avoids a difference of near
         // equals.
         u + third / u
     } else {
         let cosine = (half / (third * third.sqrt())).min(1.0);
-        2.0 * third.sqrt() * (cosine.acos() / 3.0).cos()
+        2.0 * third.sqrt() * elementary::cos(elementary::acos(cosine) / 3.0)
     };
     let slope = 3.0 * z * z - p;
     if slope > 0.0 { z - (z * z * z - p * z - q) / slope } else { z }

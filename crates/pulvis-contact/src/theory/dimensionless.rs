@@ -5,6 +5,8 @@
 //! the separation, and S0 (28) / S1 (33) need exactly that signed number (eta = 4, beta = 1: `e_n1^2(1) =
 //! -1/3`). Take the root with [`root_or_zero`].
 
+use pulvis_math::elementary;
+
 /// The coefficient that belongs to a signed square: its root, or zero where the pair sticks [-].
 #[must_use]
 pub fn root_or_zero(squared: f64) -> f64 {
@@ -41,7 +43,7 @@ pub fn restitution(eta: f64, beta: f64, chi: f64) -> f64 {
 /// Scaled overlap `X = delta_max/dp = (sqrt(1 + alpha^2) + alpha)/psi` below the limit, S1 (28a) [-].
 #[must_use]
 pub fn scaled_overlap(alpha: f64, psi: f64) -> f64 {
-    (1.0_f64.hypot(alpha) + alpha) / psi
+    (elementary::hypot(1.0, alpha) + alpha) / psi
 }
 
 /// Signed `[e_n^(1)]^2` with `f_a`, for `X = scaled_overlap(alpha, psi) <= 1`: S1 (30) [-].

@@ -1,5 +1,6 @@
 //! How long a contact lasts.
 
+use pulvis_math::elementary;
 use std::f64::consts::FRAC_PI_2;
 
 use super::parameters::LudingPair;
@@ -52,17 +53,18 @@ impl LudingPair {
         let history = balance.history;
         let velocity_at_history = speed(balance.at_limit);
         let w1 = (p.k1 / mass).sqrt();
-        let loading =
-            ((w1 * (history - shift)).atan2(velocity_at_history) + (w1 * shift).atan2(touch_velocity)) / w1;
+        let loading = (elementary::atan2(w1 * (history - shift), velocity_at_history)
+            + elementary::atan2(w1 * shift, touch_velocity))
+            / w1;
         let w2 = (self.k2(history) / mass).sqrt();
         let centre = balance.force_free_overlap;
         let minimum = self.delta_min(history);
         let velocity_at_minimum = speed(balance.at_minimum);
         let outward = match stop {
             Some((Stage::Unloading, _)) => FRAC_PI_2,
-            _ => (w2 * (centre - minimum)).atan2(velocity_at_minimum),
+            _ => elementary::atan2(w2 * (centre - minimum), velocity_at_minimum),
         };
-        let inward = FRAC_PI_2 - (w2 * (history - centre)).atan2(velocity_at_history);
+        let inward = FRAC_PI_2 - elementary::atan2(w2 * (history - centre), velocity_at_history);
         let tensile = match stop {
             Some((Stage::Unloading, _)) => 0.0,
             Some((Stage::Tensile, overlap)) => self.tensile_time(minimum, velocity_at_minimum, overlap, 0.0),
@@ -92,6 +94,6 @@ impl LudingPair {
             // Uniform acceleration: ln(1 + y) = y at this accuracy, and nothing is divided by wc = 0.
             return 2.0 * path / (fast + slow);
         }
-        (wc * growth).ln_1p() / wc
+        elementary::ln_1p(wc * growth) / wc
     }
 }

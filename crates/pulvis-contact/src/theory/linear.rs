@@ -1,5 +1,6 @@
 //! The linear spring and dashpot: the one law whose viscous collision is closed.
 
+use pulvis_math::elementary;
 use std::f64::consts::PI;
 
 use super::error::{TheoryError, not_negative, positive};
@@ -40,7 +41,7 @@ impl LinearSpringDashpot {
         let logarithm = logarithm_of(restitution)?;
         positive("stiffness", stiffness)?;
         positive("reduced mass", reduced_mass)?;
-        let damping = 2.0 * logarithm * (stiffness * reduced_mass).sqrt() / PI.hypot(logarithm);
+        let damping = 2.0 * logarithm * (stiffness * reduced_mass).sqrt() / elementary::hypot(PI, logarithm);
         Self::new(stiffness, damping, reduced_mass)
     }
 
@@ -54,7 +55,7 @@ impl LinearSpringDashpot {
         let logarithm = logarithm_of(restitution)?;
         positive("contact duration", duration)?;
         positive("reduced mass", reduced_mass)?;
-        let frequency = PI.hypot(logarithm) / duration;
+        let frequency = elementary::hypot(PI, logarithm) / duration;
         Self::new(
             reduced_mass * frequency * frequency,
             2.0 * reduced_mass * logarithm / duration,
@@ -113,7 +114,7 @@ impl LinearSpringDashpot {
     /// Coefficient of restitution `e = exp(-pi h/w)`, S1 (4); zero where overdamped [-].
     #[must_use]
     pub fn restitution(&self) -> f64 {
-        (-self.decay_rate() * self.contact_duration()).exp()
+        elementary::exp(-self.decay_rate() * self.contact_duration())
     }
 
     /// Time to the largest overlap, `atan(w/h)/w`; overdamped `atanh(w'/h)/w'` with `w'^2 = h^2 - w_0^2`
@@ -127,17 +128,17 @@ impl LinearSpringDashpot {
             // Both forms are 1/h (1 + O(w^2/h^2)) here.
             h.recip()
         } else if squared > 0.0 {
-            w.atan2(h) / w
+            elementary::atan2(w, h) / w
         } else {
             // atanh(w/h) = asinh(w/w_0) for h^2 = w_0^2 + w^2: no pole at large damping.
-            (w / self.natural_frequency()).asinh() / w
+            elementary::asinh(w / self.natural_frequency()) / w
         }
     }
 
     /// Largest overlap for the impact velocity `v` [m/s]: `(v/w_0) exp(-(h/w) atan(w/h))` \[m\].
     #[must_use]
     pub fn overlap_max(&self, velocity: f64) -> f64 {
-        velocity / self.natural_frequency() * (-self.decay_rate() * self.loading_duration()).exp()
+        velocity / self.natural_frequency() * elementary::exp(-self.decay_rate() * self.loading_duration())
     }
 
     /// Duration of a contact that ends where the force vanishes instead of where the overlap does.
@@ -154,7 +155,7 @@ impl LinearSpringDashpot {
     /// damping [-].
     #[must_use]
     pub fn restitution_to_zero_force(&self) -> f64 {
-        (-self.decay_rate() * self.duration_to_zero_force()).exp()
+        elementary::exp(-self.decay_rate() * self.duration_to_zero_force())
     }
 
     /// Overlap that is left where the force vanishes, for the impact velocity `v` [m/s]: `gamma e v/k` \[m\].
@@ -167,7 +168,7 @@ impl LinearSpringDashpot {
 /// `-ln e` for a coefficient in (0, 1].
 fn logarithm_of(restitution: f64) -> Result<f64, TheoryError> {
     if restitution > 0.0 && restitution <= 1.0 {
-        Ok(-restitution.ln())
+        Ok(-elementary::ln(restitution))
     } else {
         Err(TheoryError::RestitutionOutOfRange { value: restitution })
     }

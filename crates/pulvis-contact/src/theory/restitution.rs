@@ -1,6 +1,7 @@
 //! The coefficient of restitution, with and without `f_a`, below and above the plastic limit.
 
 use super::parameters::{LudingPair, NonContact};
+use pulvis_math::elementary;
 
 /// Where the kinetic energy of a sticking pair vanishes on the way out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -74,7 +75,7 @@ impl LudingPair {
     pub(super) fn loading_overlap(&self, touch_velocity: f64) -> f64 {
         let f_a = self.p.adhesion_force;
         let momentum = (self.p.k1 * self.p.reduced_mass).sqrt() * touch_velocity;
-        (f_a + f_a.hypot(momentum)) / self.p.k1
+        (f_a + elementary::hypot(f_a, momentum)) / self.p.k1
     }
 
     /// Energy balance of a collision that touches with the velocity `v_i` [m/s].
@@ -101,7 +102,7 @@ impl LudingPair {
         Balance {
             history,
             at_limit,
-            force_free: (p.k1 * history - f_a).powi(2) / (2.0 * k2) + at_limit,
+            force_free: elementary::powi(p.k1 * history - f_a, 2) / (2.0 * k2) + at_limit,
             force_free_overlap: self.delta_0(history) + f_a / k2,
             at_minimum: end + minimum * (0.5 * p.kc * minimum + f_a),
             end,
@@ -114,7 +115,7 @@ impl LudingPair {
     #[must_use]
     pub fn touch_velocity(&self, velocity: f64) -> f64 {
         match self.p.noncontact {
-            NonContact::Reversible => velocity.hypot(self.v_fa()),
+            NonContact::Reversible => elementary::hypot(velocity, self.v_fa()),
             NonContact::None | NonContact::JumpIn => velocity,
         }
     }
@@ -243,11 +244,11 @@ impl LudingPair {
             Stage::NonContact => return balance.loop_area + touch_loss,
             Stage::Unloading => {
                 let k2 = self.k2(balance.history);
-                0.5 * k2 * (stop - self.delta_0(balance.history)).powi(2)
+                0.5 * k2 * elementary::powi(stop - self.delta_0(balance.history), 2)
             }
             Stage::Tensile => {
                 let k2 = self.history_on_tensile_branch(stop).map_or(self.p.k1, |history| self.k2(history));
-                (self.p.kc * stop).powi(2) / (2.0 * k2)
+                elementary::powi(self.p.kc * stop, 2) / (2.0 * k2)
             }
         };
         balance.touch + self.p.adhesion_force * stop - stored + touch_loss

@@ -8,6 +8,7 @@
 //! the tensile extremum 0.5 dp; the pair stops at 0.6 dp.
 
 use super::dimensionless::{restitution_squared_limit, restitution_squared_plastic};
+use pulvis_math::elementary;
 
 /// Onset `chi_c^(b) = (1 + beta)/(beta eta)` of the high-velocity sticking, S1 (34), S0 (30): the printed
 /// root of a square reduces to this. Meaningful where it is at most 1; infinite for `beta = 0` [-].
@@ -47,7 +48,7 @@ pub fn stops_on_tensile_branch(eta: f64, beta: f64, chi: f64) -> bool {
         return beta * (x - 1.0) <= 1.0 + x;
     }
     let minimum = eta / (1.0 + eta + beta);
-    chi * chi + beta * minimum * minimum >= chi_end(eta, beta).powi(2)
+    chi * chi + beta * minimum * minimum >= elementary::powi(chi_end(eta, beta), 2)
 }
 
 /// Overlap `delta_c/dp` on the tensile branch, `chi <= 1`: `chi sqrt(-[e_n^(1)]^2/beta)`, S1 (36) [-].

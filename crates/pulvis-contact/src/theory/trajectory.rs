@@ -1,5 +1,6 @@
 //! The motion through one collision, branch by branch, and the oscillation of a pair that sticks.
 
+use pulvis_math::elementary;
 use std::f64::consts::TAU;
 
 use super::energies::{available, loading_potential, tensile_potential, unloading_potential};
@@ -170,7 +171,7 @@ impl LudingPair {
         }
         // Harmonic about the middle from its lower end: cos(w t) = 1 - 2 (history - lower)/(upper - lower).
         let share = ((history - lower) / (upper - lower)).clamp(0.0, 1.0);
-        start + 2.0 * share.sqrt().asin() * (self.p.reduced_mass / k2).sqrt()
+        start + 2.0 * elementary::asin(share.sqrt()) * (self.p.reduced_mass / k2).sqrt()
     }
 
     fn contact_stop(&self, balance: &Balance) -> (Stage, f64) {
@@ -236,9 +237,17 @@ impl Phase {
         let (cosine, sine, versine) = if angle < 1e-9 {
             (1.0, time, 0.5 * time * time)
         } else if self.slope > 0.0 {
-            (angle.cos(), angle.sin() / w, 2.0 * ((0.5 * angle).sin() / w).powi(2))
+            (
+                elementary::cos(angle),
+                elementary::sin(angle) / w,
+                2.0 * elementary::powi(elementary::sin(0.5 * angle) / w, 2),
+            )
         } else {
-            (angle.cosh(), angle.sinh() / w, 2.0 * ((0.5 * angle).sinh() / w).powi(2))
+            (
+                elementary::cosh(angle),
+                elementary::sinh(angle) / w,
+                2.0 * elementary::powi(elementary::sinh(0.5 * angle) / w, 2),
+            )
         };
         let overlap = self.overlap + self.velocity * sine + acceleration * versine;
         (overlap, self.velocity * cosine + acceleration * sine)

@@ -1,6 +1,7 @@
 //! Velocities at which the behaviour of a pair changes.
 
 use super::parameters::{Interpolation, LudingPair, NonContact};
+use pulvis_math::elementary;
 
 /// Limits of the two sticking ranges, as velocities outside the range of all forces.
 ///
@@ -138,7 +139,13 @@ impl LudingPair {
             return zero_range_window(eta, beta, phi);
         }
         let order = if self.p.interpolation == Interpolation::SquareRoot { 2 } else { 1 };
-        Margin { beta, order, force: phi * eta.powi(order), well: well * eta.powi(2 * order) }.window(eta)
+        Margin {
+            beta,
+            order,
+            force: phi * elementary::powi(eta, order),
+            well: well * elementary::powi(eta, 2 * order),
+        }
+        .window(eta)
     }
 }
 
@@ -170,7 +177,7 @@ impl Margin {
     fn value(&self, s: f64) -> f64 {
         let b = 1.0 + self.beta;
         let attraction = |strength: f64, power: i32| {
-            if strength > 0.0 { strength * s.powi(-power) * (b + s) } else { 0.0 }
+            if strength > 0.0 { strength * elementary::powi(s, -power) * (b + s) } else { 0.0 }
         };
         b - self.beta * s - attraction(self.force, self.order) - attraction(self.well, 2 * self.order)
     }
@@ -180,7 +187,7 @@ impl Margin {
         let attraction = |strength: f64, power: i32| {
             if strength > 0.0 {
                 let m = f64::from(power);
-                strength * s.powi(-power) * (m * b / s + m - 1.0)
+                strength * elementary::powi(s, -power) * (m * b / s + m - 1.0)
             } else {
                 0.0
             }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use pulvis_math::{Dimension, Real};
+use pulvis_math::{Dimension, Real, elementary};
 
 use super::ViscousLaw;
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
@@ -52,7 +52,7 @@ impl Law for Restitution {
     };
 
     fn from_values(values: &Values) -> Result<Self, InvalidParameter> {
-        let log = values.number("restitution")?.ln();
+        let log = elementary::ln(values.number("restitution")?);
         let stiffness = values.number("stiffness")?;
         Ok(Self { coefficient_per_root_mass: -2.0 * log * (stiffness / (PI * PI + log * log)).sqrt() })
     }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 use rand::RngExt;
 use thiserror::Error;
 
@@ -63,8 +63,10 @@ pub fn random_places(
         });
         let Some(centre) = free else {
             let span = region.upper - region.lower;
-            let solid: f64 =
-                radii.iter().map(|radius| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)).sum();
+            let solid: f64 = radii
+                .iter()
+                .map(|&radius| 4.0 / 3.0 * std::f64::consts::PI * elementary::powi(radius, 3))
+                .sum();
             let solid_fraction = solid / (span.x * span.y * span.z);
             let wanted = radii.len();
             return Err(NoRoom { placed, wanted, radius, attempts: ATTEMPTS, solid_fraction });

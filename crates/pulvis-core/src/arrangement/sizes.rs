@@ -1,10 +1,11 @@
 //! Distributions of particle radii.
 
+use pulvis_math::elementary;
 use rand::RngExt;
-use rand_distr::{Distribution, LogNormal, Normal};
 use thiserror::Error;
 
 use super::Random;
+use super::gaussian::standard_normal;
 
 /// A distribution of radii [m].
 #[derive(Clone, Debug, PartialEq)]
@@ -69,21 +70,32 @@ impl Sizes {
                 Ok((0..count).map(|_| minimum + (maximum - minimum) * random.random::<f64>()).collect())
             }
             Self::Normal { mean, standard_deviation, minimum, maximum } => {
-                let law = Normal::new(mean, standard_deviation).map_err(|_| InvalidSizes::Parameters)?;
-                cut(&law, minimum, maximum, count, random)
+                check_width(mean, standard_deviation)?;
+                let draw = |random: &mut Random| mean + standard_deviation * standard_normal(random);
+                cut(draw, minimum, maximum, count, random)
             }
             Self::LogNormal { median, sigma, minimum, maximum } => {
-                let law = LogNormal::new(median.ln(), sigma).map_err(|_| InvalidSizes::Parameters)?;
-                cut(&law, minimum, maximum, count, random)
+                check_width(elementary::ln(median), sigma)?;
+                let draw = |random: &mut Random| median * elementary::exp(sigma * standard_normal(random));
+                cut(draw, minimum, maximum, count, random)
             }
             Self::List(ref radii) => from_list(radii, count, random),
         }
     }
 }
 
+/// Refuses a centre or a width that is not finite, and a negative width.
+fn check_width(centre: f64, width: f64) -> Result<(), InvalidSizes> {
+    if centre.is_finite() && width.is_finite() && width >= 0.0 {
+        Ok(())
+    } else {
+        Err(InvalidSizes::Parameters)
+    }
+}
+
 /// Draws by rejection what lies between the ends.
 fn cut(
-    law: &impl Distribution<f64>,
+    draw: impl Fn(&mut Random) -> f64,
     minimum: f64,
     maximum: f64,
     count: usize,
@@ -91,7 +103,7 @@ fn cut(
 ) -> Result<Vec<f64>, InvalidSizes> {
     (0..count)
         .map(|_| {
-            let mut trials = (0..ATTEMPTS).map(|_| law.sample(random));
+            let mut trials = (0..ATTEMPTS).map(|_| draw(random));
             trials.find(|radius| (minimum..=maximum).contains(radius)).ok_or(InvalidSizes::CutOff)
         })
         .collect()
@@ -121,7 +133,7 @@ mod tests {
     fn moments(sizes: &Sizes) -> (f64, f64) {
         let drawn = sizes.draw(40_000, &mut random_stream(5)).unwrap();
         let mean = drawn.iter().sum::<f64>() / drawn.len() as f64;
-        let variance = drawn.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / drawn.len() as f64;
+        let variance = drawn.iter().map(|r| elementary::powi(r - mean, 2)).sum::<f64>() / drawn.len() as f64;
         (mean, variance.sqrt())
     }
 
@@ -135,7 +147,7 @@ mod tests {
         assert!((mean - 1.0).abs() < 1.5e-3 && (width - 0.1).abs() < 1.1e-3);
         let log_normal = Sizes::LogNormal { median: 2.0, sigma: 0.2, minimum: 0.1, maximum: 10.0 };
         let (mean, _) = moments(&log_normal);
-        assert!((mean / (2.0 * 0.02_f64.exp()) - 1.0).abs() < 4e-3);
+        assert!((mean / (2.0 * elementary::exp(0.02)) - 1.0).abs() < 4e-3);
         let (mean, _) = moments(&Sizes::List(vec![(1.0, 3.0), (2.0, 1.0)]));
         assert!((mean - 1.25).abs() < 7e-3);
     }

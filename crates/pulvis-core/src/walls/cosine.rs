@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 
 /// Displacement X(t) = A/2 (1 − cos(2 π t/P)) from the place where the motion began: from rest to the
 /// amplitude A at half a period and back to rest at P.
@@ -31,7 +31,7 @@ impl Cosine {
 
     /// Displacement at `time` [s] after the start [m].
     pub fn displacement_at(&self, time: f64) -> Vector3 {
-        self.displacement * (0.5 * (1.0 - self.phase(time).cos()))
+        self.displacement * (0.5 * (1.0 - elementary::cos(self.phase(time))))
     }
 
     /// Velocity at `time` [s] after the start [m/s].
@@ -39,7 +39,7 @@ impl Cosine {
         if time >= self.duration() {
             return Vector3::zero();
         }
-        self.displacement * (0.5 * TAU / self.period * self.phase(time).sin())
+        self.displacement * (0.5 * TAU / self.period * elementary::sin(self.phase(time)))
     }
 }
 

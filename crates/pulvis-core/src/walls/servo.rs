@@ -1,5 +1,6 @@
 //! A wall that follows a pressure.
 
+use pulvis_math::elementary;
 use std::f64::consts::PI;
 
 /// A pressure that goes from one value to another along half a cosine and then stays.
@@ -19,7 +20,7 @@ impl PressureRamp {
         if time >= self.duration {
             return self.to;
         }
-        self.from + (self.to - self.from) * 0.5 * (1.0 - (PI * time / self.duration).cos())
+        self.from + (self.to - self.from) * 0.5 * (1.0 - elementary::cos(PI * time / self.duration))
     }
 }
 

@@ -7,7 +7,7 @@ use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::Name;
 use pulvis_contact::Pair;
-use pulvis_math::Dimension;
+use pulvis_math::{Dimension, elementary};
 use std::f64::consts::PI;
 
 /// A sphere.
@@ -62,7 +62,7 @@ pub(super) fn read_bodies(table: &mut TableReader<'_>) -> Result<Bodies, Reporte
     let sphere = |index: usize| -> Result<Sphere, Reported> {
         let radius = at(&radii, index);
         let mass = match (&density, &mass) {
-            (Some(density), None) => at(density, index) * 4.0 / 3.0 * PI * radius.powi(3),
+            (Some(density), None) => at(density, index) * 4.0 / 3.0 * PI * elementary::powi(radius, 3),
             (None, Some(mass)) => at(mass, index),
             (Some(_), Some(_)) => {
                 let problem = Problem::rule("given beside `density`", "either `density` or `mass`");

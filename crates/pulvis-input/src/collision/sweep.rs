@@ -10,7 +10,7 @@ use crate::reader::TableReader;
 use crate::shape::{Integer, Name, Text};
 use crate::similar::similar;
 use pulvis_contact::catalogue::{Kind, LawEntry, Parameter, Value};
-use pulvis_math::Dimension;
+use pulvis_math::{Dimension, elementary};
 
 /// More points than any curve needs; a slip of the pen should not fill the memory.
 const MOST_POINTS: i64 = 1_000_000;
@@ -152,7 +152,7 @@ fn read_range(
         }
     }
     let between = |share: f64| {
-        if *logarithmic { from * (to / from).powf(share) } else { from + (to - from) * share }
+        if *logarithmic { from * elementary::powf(to / from, share) } else { from + (to - from) * share }
     };
     #[allow(clippy::cast_precision_loss)] // at most a million
     let inner = (1..points - 1).map(|number| between(number as f64 / (points - 1) as f64));

@@ -10,7 +10,7 @@ use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::Integer;
-use pulvis_math::{Dimension, Vector3};
+use pulvis_math::{Dimension, Vector3, elementary};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -177,7 +177,7 @@ fn fitting_block(table: &TableReader<'_>, block: &Extent, count: usize, radius: 
         return Err(table.refuse("arrangement", Problem::rule(found, expected)));
     }
     #[allow(clippy::cast_precision_loss)] // a share needs no more than a few digits
-    let share = count as f64 * 4.0 / 3.0 * PI * radius.powi(3) / block.volume();
+    let share = count as f64 * 4.0 / 3.0 * PI * elementary::powi(radius, 3) / block.volume();
     if share > DENSEST {
         let found = format!("{count} particles fill {:.0} % of the block or more", 100.0 * share);
         return Err(table.refuse("count", Problem::rule(found, "less than the densest packing, 74 %")));

@@ -6,7 +6,7 @@ use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::Name;
-use pulvis_math::Dimension;
+use pulvis_math::{Dimension, elementary};
 use std::f64::consts::PI;
 
 /// How the radii of a group are distributed. All radii are positive, and minimum < maximum.
@@ -123,7 +123,8 @@ fn read_log_normal(table: &mut TableReader<'_>) -> Result<RadiusDistribution, Re
     let limits = read_limits(table);
     let (median, sigma, (minimum, maximum)) = (median?, sigma?, limits?);
     is_between(table, "median", median, (minimum, maximum))?;
-    let share = gaussian_share((minimum / median).ln() / sigma, (maximum / median).ln() / sigma);
+    let share =
+        gaussian_share(elementary::ln(minimum / median) / sigma, elementary::ln(maximum / median) / sigma);
     has_enough(table, "sigma", share)?;
     Ok(RadiusDistribution::LogNormal { median, sigma, minimum, maximum })
 }
@@ -152,7 +153,7 @@ fn gaussian_share(lower: f64, upper: f64) -> f64 {
     let (lower, upper) = (lower.max(-8.0), upper.min(8.0));
     let intervals = 200;
     let width = (upper - lower) / f64::from(intervals);
-    let density = |z: f64| (-0.5 * z * z).exp() / (2.0 * PI).sqrt();
+    let density = |z: f64| elementary::exp(-0.5 * z * z) / (2.0 * PI).sqrt();
     let weight = |number: i32| match number {
         _ if number == 0 || number == intervals => 1.0,
         _ if number % 2 == 1 => 4.0,

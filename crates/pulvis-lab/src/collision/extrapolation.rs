@@ -6,6 +6,8 @@
 //! a table of coefficients: the branches of contact laws are smooth, so that a few long steps reach
 //! round-off, which thousands of low-order steps would spoil.
 
+use pulvis_math::elementary;
+
 /// Columns of the extrapolation.
 const COLUMNS: usize = 8;
 
@@ -31,7 +33,7 @@ pub(super) struct Trial<const N: usize> {
 impl<const N: usize> Trial<N> {
     /// By which factor the next step may be longer, or has to be shorter.
     pub fn factor(&self) -> f64 {
-        0.9 * self.error.max(1e-30).powf(-1.0 / f64::from(ERROR_ORDER)).clamp(0.1, 4.0)
+        0.9 * elementary::powf(self.error.max(1e-30), -1.0 / f64::from(ERROR_ORDER)).clamp(0.1, 4.0)
     }
 }
 

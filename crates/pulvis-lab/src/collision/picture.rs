@@ -8,6 +8,7 @@ use super::{SweepPoint, collide};
 use pulvis_contact::theory::LudingPair;
 use pulvis_input::collision::{CollisionCase, CollisionScenario, SweptVariable, luding_pair};
 use pulvis_io::plot::{Chart, Figure, Series};
+use pulvis_math::elementary;
 
 /// Points of a theory line.
 const LINE_POINTS: u32 = 600;
@@ -135,8 +136,11 @@ fn theory_line(scenario: &CollisionScenario, points: &[SweepPoint]) -> Vec<(f64,
     };
     let at = |number: u32| {
         let share = f64::from(number) / f64::from(LINE_POINTS);
-        let value =
-            if scenario.logarithmic { low * (high / low).powf(share) } else { low + (high - low) * share };
+        let value = if scenario.logarithmic {
+            low * elementary::powf(high / low, share)
+        } else {
+            low + (high - low) * share
+        };
         let case = CollisionCase { velocity: unit.velocity(value), ..first.case.clone() };
         (value, restitution(&case))
     };
@@ -155,7 +159,9 @@ impl SpeedUnit {
     fn velocity(&self, value: f64) -> f64 {
         let touch = value * self.unit;
         match &self.pair {
-            Some(pair) if pair.pull_in(touch) > 1.0 => (touch * touch - pair.v_fa().powi(2)).max(0.0).sqrt(),
+            Some(pair) if pair.pull_in(touch) > 1.0 => {
+                (touch * touch - elementary::powi(pair.v_fa(), 2)).max(0.0).sqrt()
+            }
             _ => touch,
         }
     }

@@ -2,6 +2,7 @@
 
 use pulvis_contact::{ContactModel, Pair};
 use pulvis_input::collision::{Bodies, CollisionCase};
+use pulvis_math::elementary;
 
 /// One collision with what follows from its bodies and laws.
 pub(super) struct Problem<'c> {
@@ -44,6 +45,6 @@ impl<'c> Problem<'c> {
 
     /// The stiffness that belongs to the shortest time, m_r (π/t)² [N/m].
     pub fn stiffness_scale(&self) -> f64 {
-        self.pair.reduced_mass() * (std::f64::consts::PI / self.shortest_time).powi(2)
+        self.pair.reduced_mass() * elementary::powi(std::f64::consts::PI / self.shortest_time, 2)
     }
 }

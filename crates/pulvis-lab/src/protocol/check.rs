@@ -1,5 +1,6 @@
 //! What a run will be like, said before it starts.
 
+use pulvis_math::elementary;
 use std::time::Instant;
 
 use pulvis_contact::theory::{CriticalVelocities, LudingPair};
@@ -123,7 +124,7 @@ fn mean_body(particles: &[Particle], material: usize) -> Option<(f64, f64)> {
     let count = of_material().count();
     let first = of_material().next()?;
     let radius = of_material().map(|particle| particle.radius).sum::<f64>() / count as f64;
-    Some((first.mass * (radius / first.radius).powi(3), radius))
+    Some((first.mass * elementary::powi(radius / first.radius, 3), radius))
 }
 
 fn forecast(

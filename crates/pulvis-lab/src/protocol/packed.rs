@@ -1,7 +1,7 @@
 //! The memory that a dense packing takes, before there is one.
 
 use pulvis_core::{Domain, Interactions, Particle, Setup, Simulation};
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 
 use super::setup::StagePlan;
 
@@ -39,7 +39,7 @@ fn packing(particles: &[Particle], interactions: &Interactions) -> Option<Simula
     }
     let mean = |value: fn(&Particle) -> f64| particles.iter().map(value).sum::<f64>() / count as f64;
     let (radius, mass) = (mean(|particle| particle.radius), mean(|particle| particle.mass));
-    let wanted = (count as f64 / SITES.len() as f64).cbrt().ceil() as usize;
+    let wanted = elementary::cbrt(count as f64 / SITES.len() as f64).ceil() as usize;
     let cells = wanted.clamp(*CELLS.start(), *CELLS.end());
     let spacing = 8.0_f64.sqrt() * radius;
     let mut packed = Vec::with_capacity(SITES.len() * cells.pow(3));

@@ -8,7 +8,7 @@ use pulvis_core::arrangement::{
 use pulvis_core::{Domain, MaterialIndex, Particle};
 use pulvis_input::Problem;
 use pulvis_input::scenario::{Arrangement, Grain, ParticleGroup, RadiusDistribution, Scenario};
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 
 use super::error::PrepareError;
 
@@ -24,7 +24,7 @@ pub(super) fn generate(scenario: &Scenario, domain: &Domain) -> Result<Vec<Parti
             particles.push(Particle {
                 material: group.material as MaterialIndex,
                 radius,
-                mass: 4.0 / 3.0 * PI * radius.powi(3) * density,
+                mass: 4.0 / 3.0 * PI * elementary::powi(radius, 3) * density,
                 position,
                 velocity: velocity(group, number, &mut random),
                 angular_velocity: group.velocity.angular_velocity,

@@ -114,7 +114,7 @@ macro_rules! lane_by_lane {
             self.to_array()[lane]
         }
         fn powf(self, exponent: f64) -> Self {
-            Self::load(&F64Array(self.to_array().map(|number| number.powf(exponent))))
+            Self::load(&F64Array(self.to_array().map(|number| $crate::elementary::powf(number, exponent))))
         }
     };
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use pulvis_contact::{ContactModel, NormalLaw, NormalLawVisitor, Pair};
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 
 use crate::bodies::Kinematics;
 use crate::draw::Draw;
@@ -71,7 +71,7 @@ impl Dance {
     fn wave(&self, cycles: f64, phase: f64, time: f64) -> (f64, f64) {
         let frequency = TAU * cycles / self.duration;
         let angle = frequency * time + phase;
-        (angle.sin(), frequency * angle.cos())
+        (elementary::sin(angle), frequency * elementary::cos(angle))
     }
 
     /// Unit normal and its rate.

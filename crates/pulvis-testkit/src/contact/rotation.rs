@@ -1,7 +1,7 @@
 //! A stuck pair that turns in space as one body.
 
 use pulvis_contact::ContactModel;
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 
 use crate::bodies::{Kinematics, pair_motion};
 use crate::live::{Springs, contact};
@@ -89,6 +89,6 @@ pub fn rigid_rotation(
 
 /// Rodrigues' rotation.
 fn turn(axis: Vector3, angle: f64, vector: Vector3) -> Vector3 {
-    let (sine, cosine) = angle.sin_cos();
+    let (sine, cosine) = elementary::sin_cos(angle);
     vector * cosine + axis.cross(vector) * sine + axis * (axis.dot(vector) * (1.0 - cosine))
 }

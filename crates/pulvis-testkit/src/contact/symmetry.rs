@@ -2,7 +2,7 @@
 
 use pulvis_contact::conventions::LeverArm;
 use pulvis_contact::{ContactEnergies, ContactModel, ContactResponse};
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 
 use super::Dance;
 use crate::bodies::{Kinematics, pair_motion};
@@ -127,7 +127,7 @@ fn numbers(energies: &ContactEnergies<f64>) -> [f64; 11] {
 
 pub(super) fn a_turned_frame_turns_the_answer(model: &ContactModel, dance: &Dance, draw: &mut Draw) {
     let axis = draw.direction();
-    let (sine, cosine) = draw.between(0.0, std::f64::consts::TAU).sin_cos();
+    let (sine, cosine) = elementary::sin_cos(draw.between(0.0, std::f64::consts::TAU));
     // Rodrigues' rotation.
     let turn = move |v: Vector3| v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine));
     looks_the_same(model, dance, &View { polar: Box::new(turn), axial: Box::new(turn), ..as_it_is() });

@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 use rand::RngExt;
 
 use super::*;
@@ -53,7 +53,7 @@ impl Sorted {
 
 /// Radii from the largest down to a `ratio`-th of it, as likely in every octave.
 fn radius(largest: f64, ratio: f64, index: f64) -> f64 {
-    largest * ratio.powf(-index)
+    largest * elementary::powf(ratio, -index)
 }
 
 fn point() -> impl Strategy<Value = (f64, f64, f64, f64)> {
