@@ -47,6 +47,10 @@ pub struct Ledger {
     pub work_servo: f64,
     /// Energy that came in when laws, walls or the time step were switched [J].
     pub switched: f64,
+    /// Carried in by particles that were inserted, with what their contacts store [J].
+    pub inflow: f64,
+    /// Carried out by particles that were removed, with what their contacts stored [J].
+    pub outflow: f64,
     /// What the system held at the start [J].
     pub initial: f64,
     /// The largest energy that was in motion so far: the scale of relative errors [J].
@@ -85,9 +89,9 @@ impl Ledger {
         self.work_walls + self.work_servo + self.switched
     }
 
-    /// Held + lost − done − held at the start: zero for exact integration [J].
+    /// Stored + dissipated + carried out − work − carried in − stored at the start: zero for exact integration [J].
     pub fn closing_error(&self) -> f64 {
-        self.stored() + self.dissipated() - self.work() - self.initial
+        self.stored() + self.dissipated() - self.work() - self.initial + (self.outflow - self.inflow)
     }
 
     /// The closing error over the scale [1]; zero where nothing has moved yet.
@@ -96,7 +100,7 @@ impl Ledger {
     }
 
     /// The names of all accounts with their values [J], in the order of output tables.
-    pub fn accounts(&self) -> [(&'static str, f64); 19] {
+    pub fn accounts(&self) -> [(&'static str, f64); 21] {
         [
             ("kinetic_translation", self.kinetic_translation),
             ("kinetic_rotation", self.kinetic_rotation),
@@ -117,6 +121,8 @@ impl Ledger {
             ("work_walls", self.work_walls),
             ("work_servo", self.work_servo),
             ("switched", self.switched),
+            ("inflow", self.inflow),
+            ("outflow", self.outflow),
         ]
     }
 }
@@ -132,6 +138,8 @@ pub(crate) struct Running {
     /// What the gravity potential of wrapped positions lacks for being that of the way fallen.
     pub(crate) gravity_wrapped: f64,
     pub(crate) switched: f64,
+    pub(crate) inflow: f64,
+    pub(crate) outflow: f64,
     pub(crate) initial: f64,
     pub(crate) scale: f64,
 }
@@ -139,12 +147,18 @@ pub(crate) struct Running {
 impl Running {
     /// Contacts that the system starts with have lost what they lost before its time.
     pub(crate) fn forget_losses(&mut self) {
+        self.set_losses(&ContactEnergies::default());
+    }
+
+    /// Contacts have lost so far what they had lost `before`: what those that came in have lost, they lost before
+    /// they came.
+    pub(crate) fn set_losses(&mut self, before: &ContactEnergies) {
         self.contacts = ContactEnergies {
-            dissipated_plastic: 0.0,
-            dissipated_adhesive: 0.0,
-            dissipated_sliding: 0.0,
-            dissipated_rolling: 0.0,
-            dissipated_torsion: 0.0,
+            dissipated_plastic: before.dissipated_plastic,
+            dissipated_adhesive: before.dissipated_adhesive,
+            dissipated_sliding: before.dissipated_sliding,
+            dissipated_rolling: before.dissipated_rolling,
+            dissipated_torsion: before.dissipated_torsion,
             ..self.contacts
         };
     }
@@ -185,6 +199,7 @@ mod tests {
         };
         assert_eq!(ledger.closing_error(), 0.0);
         assert_eq!(Ledger { work_servo: 3.0, ..ledger }.relative_error(), -0.5);
+        assert_eq!(Ledger { inflow: 2.0, outflow: 5.0, ..ledger }.closing_error(), 3.0);
     }
 
     #[test]

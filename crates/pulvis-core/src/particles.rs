@@ -1,6 +1,6 @@
 //! The particles, as columns grouped by who must know them.
 
-use std::ops::Index;
+use std::ops::{Index, Range};
 
 use pulvis_math::{Packed4, Vector3, elementary};
 
@@ -57,6 +57,8 @@ pub struct Particles {
     pub(crate) velocity_predicted: Vec<Packed4>,
     /// Angular velocity [rad/s] and 1/radius [1/m].
     pub(crate) angular_velocity_predicted: Vec<Packed4>,
+    /// The id that the next particle will get: no id is given twice.
+    pub(crate) next_id: ParticleId,
 }
 
 /// Force and torque on a body.
@@ -126,23 +128,37 @@ impl Index<usize> for Vectors<'_> {
 impl Particles {
     /// Particles with ids 0, 1, 2, ... in the given order.
     pub fn new(particles: &[Particle]) -> Self {
-        let column = |value: fn(&Particle) -> Packed4| particles.iter().map(value).collect::<Vec<_>>();
-        Self {
-            id: (0..particles.len() as ParticleId).collect(),
-            material: particles.iter().map(|particle| particle.material).collect(),
-            radius: particles.iter().map(|particle| particle.radius).collect(),
-            mass: particles.iter().map(|particle| particle.mass).collect(),
-            position: column(|particle| Packed4::new(particle.position, particle.radius)),
-            velocity: column(|particle| Packed4::new(particle.velocity, 1.0 / particle.mass)),
-            angular_velocity: column(|particle| {
-                Packed4::new(particle.angular_velocity, 1.0 / particle.radius)
-            }),
-            forces_and_torques: vec![ForceTorque::default(); particles.len()],
-            velocity_predicted: column(|particle| Packed4::new(particle.velocity, 1.0 / particle.radius)),
-            angular_velocity_predicted: column(|particle| {
-                Packed4::new(particle.angular_velocity, 1.0 / particle.radius)
-            }),
+        let mut columns = Self::default();
+        columns.append(particles);
+        columns
+    }
+
+    /// Puts particles behind the last row. Answers with their ids, which count on from the last one given.
+    pub(crate) fn append(&mut self, particles: &[Particle]) -> Range<ParticleId> {
+        let first = self.next_id;
+        self.next_id += particles.len() as ParticleId;
+        self.id.extend(first..self.next_id);
+        for particle in particles {
+            let (inverse_radius, velocity) = (1.0 / particle.radius, particle.velocity);
+            let turning = Packed4::new(particle.angular_velocity, inverse_radius);
+            self.material.push(particle.material);
+            self.radius.push(particle.radius);
+            self.mass.push(particle.mass);
+            self.position.push(Packed4::new(particle.position, particle.radius));
+            self.velocity.push(Packed4::new(velocity, 1.0 / particle.mass));
+            self.angular_velocity.push(turning);
+            self.velocity_predicted.push(Packed4::new(velocity, inverse_radius));
+            self.angular_velocity_predicted.push(turning);
         }
+        self.forces_and_torques.resize(self.len(), ForceTorque::default());
+        first..self.next_id
+    }
+
+    /// Takes back what was appended behind the first `rows`.
+    pub(crate) fn truncate(&mut self, rows: usize) {
+        let order: Vec<u32> = (0..rows as u32).collect();
+        self.reorder(&order, &ThreadPool::default());
+        self.forces_and_torques.truncate(rows);
     }
 
     /// Number of particles.
@@ -213,8 +229,8 @@ impl Particles {
         0.4 * self.mass[row] * self.radius[row] * self.radius[row]
     }
 
-    /// Puts the rows into a new order: row k becomes what was row `order[k]`. Loads are not moved: they are
-    /// computed anew after every change of order.
+    /// Puts the rows into a new order: row k becomes what was row `order[k]`; rows that are not in the order are
+    /// gone. Forces and torques are not moved: they are computed anew after every change of order.
     pub(crate) fn reorder(&mut self, order: &[u32], pool: &ThreadPool) {
         pool.reorder(&mut self.id, order, &mut Vec::new());
         pool.reorder(&mut self.material, order, &mut Vec::new());

@@ -40,7 +40,7 @@ pub(crate) struct ContactTable {
 #[derive(Clone, Copy)]
 pub(crate) struct Surroundings<'a> {
     pub(crate) particles: &'a Particles,
-    /// The rows that the particles had when contacts were last listed.
+    /// The rows that the particles had when contacts were last listed; of those that came since, rows behind these.
     pub(crate) order: &'a [u32],
     /// The materials of all particles, each once.
     pub(crate) materials: &'a [MaterialIndex],
@@ -76,7 +76,7 @@ impl ContactTable {
         memory: &MemoryStore,
         pool: &ThreadPool,
     ) -> usize {
-        if self.chunks.is_empty() {
+        if self.row_count != around.particles.len() {
             self.chunks = cut(around.particles.len());
         }
         self.listings.resize_with(pool.threads(), Listing::default);

@@ -46,6 +46,16 @@ impl Skin {
         (self.thickest, self.thinnest) = (thickness, THINNEST.start * thickness);
     }
 
+    /// The thickest and the thinnest skin [m].
+    pub(crate) fn sizes(&self) -> [f64; 2] {
+        [self.thickest, self.thinnest]
+    }
+
+    /// Sets the thickest and the thinnest skin [m].
+    pub(crate) fn set_sizes(&mut self, [thickest, thinnest]: [f64; 2]) {
+        (self.thickest, self.thinnest) = (thickest, thinnest);
+    }
+
     /// Makes the thinnest skin thicker where those that have it have come near its end, or thinner where they stayed
     /// far from that: where particles are now tells.
     pub(crate) fn adapt(&mut self, positions: &[Packed4], pool: &ThreadPool) {

@@ -56,6 +56,22 @@ pub enum SetupError {
         /// How many there may be.
         most: usize,
     },
+    /// All ids have been given away: particles that are inserted get new ones, and none is given twice.
+    #[error("{inserted} more particles cannot be numbered: the next id is {next} of at most {most}")]
+    IdsUsedUp {
+        /// How many were to be inserted.
+        inserted: usize,
+        /// The id that the first of them would get.
+        next: ParticleId,
+        /// The largest id that there can be.
+        most: ParticleId,
+    },
+    /// A particle was to be removed that is not there.
+    #[error("there is no particle {id} to be removed: it was never there, or it has been removed before")]
+    UnknownParticle {
+        /// Its id.
+        id: ParticleId,
+    },
     /// The time step is no positive number.
     #[error("the time step is {0} s, expected a number greater than zero")]
     TimeStep(f64),

@@ -19,10 +19,39 @@ const GAS: f64 = 1.5;
 const PACKING: f64 = 3.0;
 
 impl Simulation {
-    /// The skin to begin with, as far as periods allow.
-    pub(super) fn choose_first_skin(&mut self) {
+    fn take_mean_radius(&mut self) {
         let count = self.particles.len().max(1) as f64;
         self.mean_radius = self.particles.radius.iter().sum::<f64>() / count;
+    }
+
+    /// The skin after particles have come or gone: it keeps its thickness over the mean radius, as far as periods
+    /// allow.
+    pub(super) fn fit_skin(&mut self) {
+        let (before, [thickest, thinnest]) = (self.mean_radius, self.skin.sizes());
+        self.take_mean_radius();
+        if !self.chooses_skin {
+            return;
+        }
+        let of_mean = [SKIN_IN_PACKING, SKIN_IN_GAS, SKIN_IN_SHORT_PERIODS];
+        match of_mean.into_iter().find(|factor| (factor * before).to_bits() == thickest.to_bits()) {
+            Some(factor) if thickest > 0.0 => {
+                let thickest_now = factor * self.mean_radius;
+                self.skin.set_sizes([thickest_now, thinnest * (thickest_now / thickest)]);
+            }
+            _ => self.choose_first_skin(),
+        }
+        if self.check_periods().is_err() {
+            self.choose_first_skin();
+        }
+        // Small particles that leave make the mean radius grow, and with it the skin.
+        if self.check_periods().is_err() {
+            self.skin.set_sizes([thickest, thinnest]);
+        }
+    }
+
+    /// The skin to begin with, as far as periods allow.
+    pub(super) fn choose_first_skin(&mut self) {
+        self.take_mean_radius();
         self.skin.set_thickest(SKIN_IN_PACKING * self.mean_radius);
         if self.check_periods().is_err() {
             self.skin.set_thickest(SKIN_IN_SHORT_PERIODS * self.mean_radius);
@@ -34,7 +63,7 @@ impl Simulation {
         self.phases = self.phases();
         self.choose_skin();
         self.contacts.remember(&mut self.memory, &self.pool);
-        self.rebuild();
+        self.rebuild(None);
         self.rebuilds += 1;
         if let Some(phases) = &mut self.phases {
             clock.lap(&mut phases.neighbours);
@@ -88,18 +117,21 @@ impl Simulation {
         self.running.gravity_wrapped += fallen;
     }
 
-    /// Puts the particles into cell order and lists all candidates within reach and skin.
-    pub(super) fn rebuild(&mut self) {
+    /// Puts the particles into cell order and lists all candidates within reach and skin. Where particles have come
+    /// or gone since contacts were last listed, `former` gives the row of then for each row of now.
+    pub(super) fn rebuild(&mut self, former: Option<&[u32]>) {
         self.wrap();
         self.skin.renew(&self.particles, self.time_step, &self.pool);
         self.skin.renew_walls(self.walls.iter().map(Wall::offset));
         let (grid, order) =
             CellGrid::sort(&self.domain, self.skin.positions(), self.interactions.interaction_range());
+        let rows_of_then: Option<Vec<u32>> =
+            former.map(|former| order.iter().map(|&row| former[row as usize]).collect());
         self.particles.reorder(&order, &self.pool);
         self.skin.reorder(&order, &self.pool);
         let around = Surroundings {
             particles: &self.particles,
-            order: &order,
+            order: rows_of_then.as_ref().unwrap_or(&order),
             materials: &self.materials,
             interactions: &self.interactions,
             walls: &self.walls,

@@ -1,6 +1,7 @@
 //! Many bodies, one step after another.
 
 mod errors;
+mod insertion;
 mod lists;
 mod observe;
 mod steps;
@@ -139,9 +140,7 @@ impl Simulation {
             running: Running::default(),
             rebuilds: 0,
         };
-        simulation.materials.clone_from(&simulation.particles.material);
-        simulation.materials.sort_unstable();
-        simulation.materials.dedup();
+        simulation.list_materials();
         simulation.on_particles = vec![Vector3::zero(); simulation.walls.len()];
         simulation.check_models()?;
         simulation.check_walls()?;
@@ -150,14 +149,20 @@ impl Simulation {
         for (wall, state) in simulation.walls.iter().zip(&mut simulation.wall_states) {
             state.start(&wall.motion);
         }
-        simulation.rebuild();
+        simulation.rebuild(None);
         if simulation.choose_skin() {
-            simulation.rebuild();
+            simulation.rebuild(None);
         }
         simulation.evaluate_at_rest();
         simulation.running.forget_losses();
         simulation.running.initial = simulation.ledger().stored();
         Ok(simulation)
+    }
+
+    fn list_materials(&mut self) {
+        self.materials.clone_from(&self.particles.material);
+        self.materials.sort_unstable();
+        self.materials.dedup();
     }
 
     fn check_models(&self) -> Result<(), SetupError> {

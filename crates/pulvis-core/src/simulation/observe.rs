@@ -45,6 +45,8 @@ impl Simulation {
             work_walls: self.wall_states.iter().map(|state| state.work_prescribed).sum(),
             work_servo: self.wall_states.iter().map(|state| state.work_servo).sum(),
             switched: self.running.switched,
+            inflow: self.running.inflow,
+            outflow: self.running.outflow,
             initial: self.running.initial,
             scale: 0.0,
         };
