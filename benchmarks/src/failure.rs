@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use pulvis_core::arrangement::InvalidSizes;
 use pulvis_core::{SetupError, StepError};
 use pulvis_input::InputErrors;
+use pulvis_packing::InvalidDistribution;
 use thiserror::Error;
 
 /// Why a benchmark could not be run.
@@ -34,7 +34,7 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Law(#[from] InputErrors),
     #[error(transparent)]
-    Sizes(#[from] InvalidSizes),
+    Radii(#[from] InvalidDistribution),
     #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]

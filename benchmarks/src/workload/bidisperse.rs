@@ -1,9 +1,9 @@
 //! Few large spheres among many small ones.
 
 use pulvis_contact::ContactModel;
-use pulvis_core::arrangement::{Lattice, gaussian_vector, lattice, random_stream};
 use pulvis_core::{Particle, Setup};
 use pulvis_math::{Vector3, elementary};
+use pulvis_packing::{Lattice, gaussian_vector, random_stream};
 use rand::seq::SliceRandom;
 
 use super::{RADIUS, edge_of_cube, of_one_material, periodic_cube, sphere};
@@ -52,8 +52,8 @@ pub(crate) fn setup(plan: &Plan, model: ContactModel) -> Result<Setup, Failure> 
 
 fn cubic(edge: f64, per_edge: usize) -> Vec<Vector3> {
     let spacing = edge / per_edge as f64;
-    let lower = Vector3::new(0.5, 0.5, 0.5) * spacing;
-    lattice(&Lattice { lower, counts: [per_edge; 3], spacing, jitter: 0.0 }, &mut random_stream(0))
+    let lattice = Lattice { lower: Vector3::zero(), counts: [per_edge; 3], spacing, jitter: 0.0 };
+    lattice.sites().collect()
 }
 
 fn large_spheres(plan: &Plan, radius: f64, edge: f64) -> Vec<Particle> {

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use pulvis_contact::ContactModel;
-use pulvis_core::arrangement::{Lattice, Random, Sizes, gaussian_vector, lattice, random_stream};
 use pulvis_core::{Particle, Setup};
 use pulvis_math::{Vector3, elementary};
+use pulvis_packing::{Lattice, RadiusDistribution, Random, gaussian_vector, random_stream};
 use rand::seq::SliceRandom;
 
 use super::{RADIUS, edge_of_cube, of_one_material, periodic_cube, sphere, table};
@@ -31,15 +31,14 @@ pub(crate) fn setup(path: Option<&Path>, count: usize, model: ContactModel) -> R
 /// Spheres of radius ±20 % on randomly chosen sites of a lattice, moved off them by no more than the
 /// room that the largest sphere has there.
 fn made_anew(count: usize, random: &mut Random) -> Result<Vec<Particle>, Failure> {
-    let sizes = Sizes::Uniform { minimum: 0.8 * RADIUS, maximum: 1.2 * RADIUS };
-    let radii = sizes.draw(count, random)?;
+    let distribution = RadiusDistribution::Uniform { minimum: 0.8 * RADIUS, maximum: 1.2 * RADIUS };
+    let radii = distribution.draw(count, random)?;
     let edge = edge_of_cube(radii.iter().copied(), SOLID_FRACTION);
     let per_edge = elementary::cbrt(count as f64).ceil() as usize;
     let spacing = edge / per_edge as f64;
     let jitter = (0.5 - 1.2 * RADIUS / spacing).max(0.0);
-    let lower = Vector3::new(0.5, 0.5, 0.5) * spacing;
-    let plan = Lattice { lower, counts: [per_edge; 3], spacing, jitter };
-    let mut sites = lattice(&plan, random);
+    let lattice = Lattice { lower: Vector3::zero(), counts: [per_edge; 3], spacing, jitter };
+    let mut sites = lattice.positions(random);
     sites.shuffle(random);
     let velocities: Vec<_> = (0..count).map(|_| gaussian_vector(random) * SPEED).collect();
     let mean = velocities.iter().fold(Vector3::zero(), |sum, &v| sum + v) * (1.0 / count.max(1) as f64);

@@ -11,9 +11,9 @@ use std::time::Instant;
 use pulvis_contact::normal::Interpolation;
 use pulvis_contact::viscosity::{Constant, Viscosity};
 use pulvis_contact::{ContactModel, Linear, Luding, SpringSlider};
-use pulvis_core::arrangement::{Lattice, gaussian_vector, lattice, random_stream};
 use pulvis_core::{Background, Domain, Interactions, Particle, Setup, Simulation, shortest_contact};
 use pulvis_math::{Vector3, elementary};
+use pulvis_packing::{Lattice, gaussian_vector, random_stream};
 
 const SIDE: usize = 20;
 const RADIUS: f64 = 0.5e-3;
@@ -46,9 +46,10 @@ fn setup(law: &str) -> Setup {
     let spacing = 1.96 * RADIUS;
     let edge = SIDE as f64 * spacing;
     let mut random = random_stream(1);
-    let plan = Lattice { lower: Vector3::zero(), counts: [SIDE; 3], spacing, jitter: 0.01 };
+    let lattice = Lattice { lower: Vector3::zero(), counts: [SIDE; 3], spacing, jitter: 0.01 };
     let mass = 4.0 / 3.0 * std::f64::consts::PI * 2500.0 * elementary::powi(RADIUS, 3);
-    let particles: Vec<Particle> = lattice(&plan, &mut random)
+    let particles: Vec<Particle> = lattice
+        .positions(&mut random)
         .into_iter()
         .map(|position| Particle {
             material: 0,

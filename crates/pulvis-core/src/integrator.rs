@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use pulvis_math::{Kernel, Packed4, Simd4, Simd8};
 
-use crate::background::Background;
 use crate::particles::{ForceTorque, Particles};
 use crate::shared::Shared;
+use pulvis_boundary::Background;
 
 /// The columns that the integrator works on; see [`Particles`] for what the packed vectors hold.
 #[derive(Clone, Copy)]

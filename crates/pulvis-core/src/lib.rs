@@ -4,11 +4,8 @@
 //! new list of candidates, time moves by synchronised velocity-Verlet, and an energy ledger closes
 //! over it all. Nothing here knows files.
 
-pub mod arrangement;
-mod background;
 mod contacts;
 mod counting_sort;
-mod domain;
 mod integrator;
 mod ledger;
 mod neighbours;
@@ -21,12 +18,11 @@ mod thread_pool;
 mod time_step;
 pub mod walls;
 
-pub use background::Background;
 pub use contacts::{ContactPartner, ContactView, Interactions};
-pub use domain::Domain;
 pub use ledger::Ledger;
 pub use particles::{MaterialIndex, Particle, ParticleId, Particles, Vectors};
 pub use phases::Phases;
+pub use pulvis_boundary::{Background, Domain};
 pub use pulvis_math::InstructionSet;
 pub use region::Region;
 pub use simulation::{Setup, SetupError, Simulation, StepError};

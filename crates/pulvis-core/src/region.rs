@@ -2,7 +2,7 @@
 
 use pulvis_math::Vector3;
 
-use crate::domain::Domain;
+use pulvis_boundary::Domain;
 
 /// A part of space, its boundary included.
 #[derive(Clone, Copy, Debug, PartialEq)]

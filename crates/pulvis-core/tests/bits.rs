@@ -4,12 +4,13 @@
 mod common;
 
 use common::*;
+use pulvis_boundary::Cuboid;
 use pulvis_contact::noncontact::JumpIn;
 use pulvis_contact::{ContactModel, Linear, NonContact};
-use pulvis_core::arrangement::{Region, gaussian_vector, random_places, random_stream};
 use pulvis_core::walls::{FaceArea, PressureRamp, Servo, WallMotion};
 use pulvis_core::{Background, ContactPartner, Domain, InstructionSet, Setup, Simulation};
 use pulvis_math::Vector3;
+use pulvis_packing::{gaussian_vector, random_positions, random_stream};
 
 const STEPS_PER_CONTACT: f64 = 25.0;
 
@@ -199,8 +200,8 @@ fn wide_distribution() -> Setup {
         .collect();
     let domain = Domain::periodic(Vector3::zero(), upper, [true, false, false]);
     let mut random = random_stream(7);
-    let region = Region { lower: Vector3::zero(), upper };
-    let places = random_places(&radii, &region, &domain, &[], &mut random).unwrap();
+    let region = Cuboid { lower: Vector3::zero(), upper };
+    let places = random_positions(&radii, &region, &domain, &[], &mut random).unwrap();
     let middle = upper * 0.5;
     let falling = |(place, radius): (Vector3, f64)| {
         let mut inwards = (middle - place) * (2.0 / edge);

@@ -58,7 +58,7 @@ fn a_scenario_cut_off_anywhere_is_read_or_refused_but_never_breaks_the_reader() 
 fn what_is_left_out_has_its_default() {
     let scenario = good("minimal.toml");
     assert_eq!((scenario.seed, scenario.title.as_deref()), (1, None));
-    assert_eq!(scenario.gravity.to_array(), [0.0; 3]);
+    assert_eq!(scenario.background.gravity.to_array(), [0.0; 3]);
     assert_eq!(scenario.background, Background::default());
     assert_eq!(scenario.time, TimeStep::Auto { steps_per_contact_time: 50.0 });
     assert_eq!((scenario.domain, scenario.enclosure, scenario.walls.len()), (None, None, 0));
@@ -127,7 +127,7 @@ fn a_box_has_no_walls_where_space_repeats_or_a_face_is_open() {
     // Up to rounding of the division by the length.
     assert!((ramp.normal.norm() - 1.0).abs() < 1e-15);
     assert_eq!(hopper.walls[4].area, Some(5e-4));
-    assert_eq!((hopper.stages[0].gravity.z, hopper.stages[1].gravity.z), (-9.81, 0.0));
+    assert_eq!((hopper.stages[0].background.gravity.z, hopper.stages[1].background.gravity.z), (-9.81, 0.0));
 }
 
 #[test]

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use pulvis_math::{F64Array, Kernel, Mask, Packed4, Simd4, Simd8, Vector3};
 
-use crate::domain::Images;
 use crate::neighbours::RowRangePair;
+use pulvis_boundary::Images;
 
 /// Two rows near each other, the lower one first, and the gap between their surfaces [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -182,7 +182,7 @@ mod tests {
     use pulvis_math::InstructionSet;
 
     use super::*;
-    use crate::domain::Domain;
+    use pulvis_boundary::Domain;
 
     /// Rows in a line, 0.3 m apart, and pairs whose surfaces are closer than 0.55 m: up to the fifth row
     /// behind one.

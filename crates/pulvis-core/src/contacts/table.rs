@@ -12,12 +12,12 @@ use super::deferred::DeferredChunks;
 use super::force_pass::{DependencyCounter, ForcePass, Halos, Sums, Sweep};
 use super::listing::{Listing, Sources};
 use super::rebuild::MemoryStore;
-use crate::domain::Images;
 use crate::neighbours::{CellGrid, Moved, Skin};
 use crate::particles::{ForceTorque, MaterialIndex, Particles};
 use crate::shared::Shared;
 use crate::thread_pool::ThreadPool;
 use crate::walls::Wall;
+use pulvis_boundary::Images;
 
 /// The candidates and what they remember.
 #[derive(Clone, Debug, Default)]

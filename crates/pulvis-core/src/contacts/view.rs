@@ -5,8 +5,8 @@ use pulvis_math::Vector3;
 
 use super::block::{ContactGroup, Partner};
 use super::kernel::WallMotionNow;
-use crate::domain::Images;
 use crate::particles::{ParticleId, Particles};
+use pulvis_boundary::Images;
 
 /// The second body of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,9 +11,7 @@ pub use errors::{SetupError, StepError};
 
 use pulvis_math::{InstructionSet, Packed4, Vector3};
 
-use crate::background::Background;
 use crate::contacts::{ContactTable, Interactions, MemoryStore, WallMotionNow};
-use crate::domain::Domain;
 use crate::integrator::Kicked;
 use crate::ledger::Running;
 use crate::neighbours::{Moved, Skin};
@@ -21,6 +19,8 @@ use crate::particles::{MaterialIndex, Particle, Particles};
 use crate::phases::Phases;
 use crate::thread_pool::ThreadPool;
 use crate::walls::{Extent, FaceArea, Wall, WallMotion, WallState};
+use pulvis_boundary::Background;
+use pulvis_boundary::Domain;
 
 /// What a simulation starts from.
 #[derive(Clone, Debug)]

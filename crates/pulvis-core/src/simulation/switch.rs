@@ -3,11 +3,11 @@
 use pulvis_math::InstructionSet;
 
 use super::{SetupError, Simulation};
-use crate::background::Background;
 use crate::contacts::Interactions;
 use crate::phases::Phases;
 use crate::thread_pool::ThreadPool;
 use crate::walls::WallMotion;
+use pulvis_boundary::Background;
 
 /// Switching between stages. Every switch keeps the ledger: what the system holds more or less
 /// afterwards is booked as switched.

@@ -1,13 +1,14 @@
 //! Systems that several tests start from.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
+use pulvis_boundary::Cuboid;
 use pulvis_contact::normal::Interpolation;
 use pulvis_contact::viscosity::{Constant, Viscosity};
 use pulvis_contact::{ContactModel, Linear, Luding, SpringSlider};
-use pulvis_core::arrangement::{Region, gaussian_vector, random_places, random_stream};
 use pulvis_core::walls::Wall;
 use pulvis_core::{Background, Domain, Interactions, Particle, Setup, Simulation, shortest_contact};
 use pulvis_math::Vector3;
+use pulvis_packing::{gaussian_vector, random_positions, random_stream};
 
 pub const RADIUS: f64 = 0.5e-3;
 
@@ -99,9 +100,9 @@ pub fn elastic_gas(count: usize) -> Setup {
     let edge = (volume / 0.2).cbrt();
     let upper = vector(edge, edge, edge);
     let domain = Domain::periodic(Vector3::zero(), upper, [true; 3]);
-    let region = Region { lower: Vector3::zero(), upper };
+    let region = Cuboid { lower: Vector3::zero(), upper };
     let mut random = random_stream(11);
-    let places = random_places(&vec![RADIUS; count], &region, &domain, &[], &mut random).unwrap();
+    let places = random_positions(&vec![RADIUS; count], &region, &domain, &[], &mut random).unwrap();
     let moving = |place| sphere(place, gaussian_vector(&mut random) * 0.1, RADIUS);
     Setup { domain, ..setup(places.into_iter().map(moving).collect(), elastic()) }
 }
@@ -112,8 +113,8 @@ pub fn implosion(count: usize, edge: f64, seed: u64, model: ContactModel) -> Set
     let mut random = random_stream(seed);
     let radii: Vec<f64> =
         (0..count).map(|place| RADIUS * (0.7 + 0.6 * place as f64 / (count - 1).max(1) as f64)).collect();
-    let region = Region { lower: Vector3::zero(), upper: vector(edge, edge, edge) };
-    let places = random_places(&radii, &region, &Domain::unbounded(), &[], &mut random).unwrap();
+    let region = Cuboid { lower: Vector3::zero(), upper: vector(edge, edge, edge) };
+    let places = random_positions(&radii, &region, &Domain::unbounded(), &[], &mut random).unwrap();
     let middle = vector(0.5 * edge, 0.5 * edge, 0.5 * edge);
     let falling = |(place, radius): (Vector3, f64)| {
         let inwards = (middle - place) * (0.6 / edge);

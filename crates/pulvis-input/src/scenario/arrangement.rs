@@ -1,6 +1,6 @@
 //! Where the particles of a group start.
 
-use super::domain::{Extent, read_extent};
+use super::domain::read_extent;
 use super::points::{PointsError, read_points};
 use crate::context::Reported;
 use crate::list::{List, Vector};
@@ -8,7 +8,9 @@ use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::{Integer, Name, Text};
+use pulvis_boundary::Cuboid;
 use pulvis_math::{Dimension, Vector3};
+use pulvis_packing::Lattice;
 use std::path::{Path, PathBuf};
 
 /// Where the particles of a group start.
@@ -17,7 +19,7 @@ pub enum Arrangement {
     /// On a simple cubic lattice.
     Lattice(Lattice),
     /// At random, whole and without overlap, in this block.
-    Random(Extent),
+    Random(Cuboid),
     /// As a file says.
     File {
         /// The absolute path of the file.
@@ -29,19 +31,6 @@ pub enum Arrangement {
     List(Vec<Vector3>),
 }
 
-/// A simple cubic lattice that fills a block: sites are the centres of cells.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lattice {
-    /// Lower corner of the block [m].
-    pub lower: Vector3,
-    /// Number of cells along x, y, z.
-    pub counts: [usize; 3],
-    /// Edge of a cell [m].
-    pub spacing: f64,
-    /// Largest random displacement along each axis, as a fraction of the spacing [1].
-    pub jitter: f64,
-}
-
 /// A particle of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
@@ -51,36 +40,6 @@ pub struct Grain {
     pub radius: Option<f64>,
     /// Velocity [m/s], if the file has them.
     pub velocity: Option<Vector3>,
-}
-
-impl Lattice {
-    /// The number of sites.
-    pub fn site_count(&self) -> usize {
-        self.counts.iter().product()
-    }
-
-    /// The sites, x fastest and z slowest: lower + (i + 1/2) spacing [m].
-    pub fn sites(&self) -> impl Iterator<Item = Vector3> + '_ {
-        (0..self.site_count()).map(|number| {
-            let [along_x, along_y, _] = self.counts;
-            self.site([number % along_x, number / along_x % along_y, number / (along_x * along_y)])
-        })
-    }
-
-    /// The site in the cell with these numbers along x, y, z [m].
-    pub fn site(&self, cell: [usize; 3]) -> Vector3 {
-        // A lattice of more than 2^53 cells along an axis does not fit into any memory.
-        #[allow(clippy::cast_precision_loss)]
-        let offset = cell.map(|number| (number as f64 + 0.5) * self.spacing);
-        self.lower + Vector3::from(offset)
-    }
-
-    /// The block that the cells fill.
-    pub fn extent(&self) -> Extent {
-        #[allow(clippy::cast_precision_loss)]
-        let size = self.counts.map(|count| count as f64 * self.spacing);
-        Extent { lower: self.lower, upper: self.lower + Vector3::from(size) }
-    }
 }
 
 /// More particles than this do not fit into any memory: the number is a slip.

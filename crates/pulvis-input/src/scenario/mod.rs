@@ -54,16 +54,16 @@ mod walk;
 mod walls;
 
 pub use crate::contact::NamedLaw;
-pub use arrangement::{Arrangement, Grain, Lattice};
+pub use arrangement::{Arrangement, Grain};
 pub use axis::{Axis, BoxFace, Side};
 pub use contacts::Contact;
 pub use controls::{CosineMotion, Servo, WallControl};
-pub use domain::{Background, Domain, Extent};
 pub use materials::Material;
 pub use output::{Dimensionless, Interval, OutputPlan, Snapshots};
 pub use particles::{ParticleGroup, VelocityPlan};
 pub use points::PointsError;
-pub use radius::RadiusDistribution;
+pub use pulvis_boundary::{Background, Cuboid, Domain};
+pub use pulvis_packing::{Lattice, RadiusDistribution};
 pub use stages::Stage;
 pub use time::TimeStep;
 pub use until::{Crossing, StopRules, StrainRule, StressRule};
@@ -72,7 +72,6 @@ pub use walls::Wall;
 use crate::document::Document;
 use crate::error::{InputError, InputErrors};
 use crate::problem::Problem;
-use pulvis_math::Vector3;
 use std::path::{Path, PathBuf};
 
 /// Everything that a run needs to know.
@@ -84,20 +83,18 @@ pub struct Scenario {
     pub title: Option<String>,
     /// Seed of all random numbers.
     pub seed: u64,
-    /// Acceleration of gravity before the first stage [m/s^2].
-    pub gravity: Vector3,
-    /// The periodic directions, if there are any.
+    /// The periodic directions, if there are any; then at least one is.
     pub domain: Option<Domain>,
     /// The materials, in the order of the file.
     pub materials: Vec<Material>,
     /// One contact for every pair of materials that can meet, before the first stage.
     pub contacts: Vec<Contact>,
-    /// Drag by a background, before the first stage.
+    /// Gravity and drag, before the first stage.
     pub background: Background,
     /// The groups of particles, at least one.
     pub particles: Vec<ParticleGroup>,
     /// Lower and upper corner of the box, if there is one; its walls are among [`Self::walls`].
-    pub enclosure: Option<Extent>,
+    pub enclosure: Option<Cuboid>,
     /// All plane walls; those of the box come first. At the start all of them are fixed.
     pub walls: Vec<Wall>,
     /// How long a time step is, before the first stage.

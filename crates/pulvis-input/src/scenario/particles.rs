@@ -1,16 +1,17 @@
 //! Groups of particles.
 
 use super::arrangement::{Arrangement, MOST_PARTICLES, read_arrangement};
-use super::domain::Extent;
 use super::materials::{Material, read_material_name};
-use super::radius::{RadiusDistribution, read_radius};
+use super::radius::read_radius;
 use crate::context::{Location, Reported};
 use crate::list::Vector;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::Integer;
+use pulvis_boundary::Cuboid;
 use pulvis_math::{Dimension, Vector3, elementary};
+use pulvis_packing::RadiusDistribution;
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -168,7 +169,7 @@ fn fitting_radius(
 const DENSEST: f64 = 0.7405;
 
 /// What cannot fit into a block even if all particles are as small as they may be.
-fn fitting_block(table: &TableReader<'_>, block: &Extent, count: usize, radius: f64) -> Result<(), Reported> {
+fn fitting_block(table: &TableReader<'_>, block: &Cuboid, count: usize, radius: f64) -> Result<(), Reported> {
     let size = block.size();
     let shortest = size.x.min(size.y).min(size.z);
     if 2.0 * radius > shortest {

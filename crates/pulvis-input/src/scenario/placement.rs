@@ -2,12 +2,12 @@
 
 use super::arrangement::Arrangement;
 use super::axis::Axis;
-use super::domain::{Domain, Extent};
 use super::particles::{ParticleGroup, PlacedGroup};
 use super::walls::Wall;
 use crate::context::Reported;
 use crate::problem::Problem;
 use crate::reader::TableReader;
+use pulvis_boundary::{Cuboid, Domain};
 use pulvis_math::Vector3;
 
 /// Checks every group: centres lie on the inner side of all walls, and inside the domain along periodic
@@ -43,7 +43,7 @@ struct Point {
 /// The points that decide whether a group is inside: walls are planes, so the corners of a block speak
 /// for all of it.
 fn points(group: &ParticleGroup) -> Vec<Point> {
-    let corners = |what: &str, block: &Extent| -> Vec<Point> {
+    let corners = |what: &str, block: &Cuboid| -> Vec<Point> {
         let size = block.lower.norm().max(block.upper.norm());
         let point = |at| Point { what: format!("a corner of the {what},"), at, slack: 1e-12 * size };
         block.corners().into_iter().map(point).collect()

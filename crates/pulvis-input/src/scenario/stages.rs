@@ -3,7 +3,6 @@
 use super::axis::{Axis, BoxFace, Side};
 use super::contacts::Contact;
 use super::controls::{WallControl, read_control};
-use super::domain::Background;
 use super::particles::no_tables;
 use super::switches::{Switch, read_switches};
 use super::time::{TimeStep, read_time};
@@ -13,7 +12,7 @@ use crate::context::Reported;
 use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::Text;
-use pulvis_math::Vector3;
+use pulvis_boundary::Background;
 
 /// A stage of a run, with everything that holds while it lasts.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,10 +25,8 @@ pub struct Stage {
     pub controls: Vec<(usize, WallControl)>,
     /// One contact for every pair of materials that can meet, in the order of [`super::Scenario::contacts`].
     pub contacts: Vec<Contact>,
-    /// Drag by a background.
+    /// Gravity and drag.
     pub background: Background,
-    /// Acceleration of gravity [m/s^2].
-    pub gravity: Vector3,
     /// How long a time step is.
     pub time: TimeStep,
 }

@@ -1,7 +1,7 @@
 //! The walk over a scenario file, first as it stands, then once more for every stage that switches.
 
 use super::contacts::{Contact, MaterialUse, read_contacts};
-use super::domain::{Background, read_background, read_domain, read_gravity};
+use super::domain::{read_background, read_domain};
 use super::materials::{Material, read_materials};
 use super::output::read_output;
 use super::particles::{PlacedGroup, read_particles};
@@ -16,7 +16,7 @@ use crate::document::Document;
 use crate::error::InputErrors;
 use crate::reader::TableReader;
 use crate::shape::{Integer, Text};
-use pulvis_math::Vector3;
+use pulvis_boundary::Background;
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
@@ -84,12 +84,11 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     root.finish();
     fit?;
     let (walls, groups) = bodies?;
-    let Changing { contacts, background, gravity } = changing?;
+    let Changing { contacts, background } = changing?;
     let scenario = Scenario {
         source: ScenarioSource { name: String::new(), path: None, text: String::new() },
         title: title?,
         seed: seed?.unsigned_abs(),
-        gravity,
         domain: domain?,
         materials,
         contacts,
@@ -121,7 +120,6 @@ fn material_use(walls: &Walls, groups: &[PlacedGroup]) -> MaterialUse {
 struct Changing {
     contacts: Vec<Contact>,
     background: Background,
-    gravity: Vector3,
 }
 
 impl Changing {
@@ -130,10 +128,9 @@ impl Changing {
         materials: &[Material],
         used: Option<&MaterialUse>,
     ) -> Result<Self, Reported> {
-        let gravity = read_gravity(root);
         let background = read_background(root);
         let contacts = read_contacts(root, materials, used)?;
-        Ok(Self { contacts, background: background?, gravity: gravity? })
+        Ok(Self { contacts, background: background? })
     }
 }
 
@@ -153,7 +150,6 @@ fn resolve(
             Changing {
                 contacts: before.map_or(&scenario.contacts, |stage| &stage.contacts).clone(),
                 background: before.map_or(scenario.background, |stage| stage.background),
-                gravity: before.map_or(scenario.gravity, |stage| stage.gravity),
             }
         } else {
             document = switched(&document, &switches)?;
@@ -170,8 +166,8 @@ fn resolve(
                 errors.with_help(&format!("this is what [stages.set] of stage \"{name}\" leads to"))
             })?
         };
-        let Changing { contacts, background, gravity } = changing;
-        stages.push(Stage { name, until, controls, contacts, background, gravity, time });
+        let Changing { contacts, background } = changing;
+        stages.push(Stage { name, until, controls, contacts, background, time });
     }
     Ok(stages)
 }

@@ -1,7 +1,7 @@
 //! Plane walls: the box, and further planes.
 
 use super::axis::{Axis, BoxFace, Side};
-use super::domain::{Domain, Extent, read_extent};
+use super::domain::read_extent;
 use super::materials::{Material, read_material_name};
 use crate::context::{Location, Reported};
 use crate::list::{List, Vector};
@@ -9,6 +9,7 @@ use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::Name;
+use pulvis_boundary::{Cuboid, Domain};
 use pulvis_math::{Dimension, Vector3};
 
 /// A plane wall at the start of a run.
@@ -39,7 +40,7 @@ impl Wall {
 /// The box and all walls.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Walls {
-    pub(super) enclosure: Option<Extent>,
+    pub(super) enclosure: Option<Cuboid>,
     pub(super) walls: Vec<Wall>,
 }
 
@@ -74,7 +75,7 @@ fn read_box(
     mut table: TableReader<'_>,
     materials: &[Material],
     domain: Option<&Domain>,
-) -> Result<(Extent, Vec<Wall>), Reported> {
+) -> Result<(Cuboid, Vec<Wall>), Reported> {
     let periodic = domain.map_or([false; 3], |domain| domain.periodic);
     let extent = read_extent(&mut table).and_then(|extent| fits_domain(&table, extent, domain));
     let material = read_material_name(&mut table, "material", materials);
@@ -118,10 +119,10 @@ fn read_box(
 }
 
 /// Along a periodic direction the box has no walls; its bounds there are those of the domain.
-fn fits_domain(table: &TableReader<'_>, extent: Extent, domain: Option<&Domain>) -> Result<Extent, Reported> {
+fn fits_domain(table: &TableReader<'_>, extent: Cuboid, domain: Option<&Domain>) -> Result<Cuboid, Reported> {
     let Some(domain) = domain else { return Ok(extent) };
     for axis in Axis::ALL.into_iter().filter(|axis| domain.periodic[axis.index()]) {
-        let along = |extent: &Extent| (extent.lower[axis.index()], extent.upper[axis.index()]);
+        let along = |extent: &Cuboid| (extent.lower[axis.index()], extent.upper[axis.index()]);
         let ((lower, upper), (first, last)) = (along(&extent), along(&domain.extent));
         if (lower, upper) != (first, last) {
             let name = axis.name();

@@ -2,13 +2,11 @@
 
 use std::f64::consts::PI;
 
-use pulvis_core::arrangement::{
-    self, Lattice, Random, Region, Sizes, gaussian_vector, random_places, random_stream,
-};
 use pulvis_core::{Domain, MaterialIndex, Particle};
 use pulvis_input::Problem;
-use pulvis_input::scenario::{Arrangement, Grain, ParticleGroup, RadiusDistribution, Scenario};
+use pulvis_input::scenario::{Arrangement, Grain, ParticleGroup, Scenario};
 use pulvis_math::{Vector3, elementary};
+use pulvis_packing::{Random, gaussian_vector, random_positions, random_stream};
 
 use super::error::PrepareError;
 
@@ -43,27 +41,11 @@ fn radii(
     let Some(distribution) = &group.radius else {
         return Ok(grains(group).iter().filter_map(|grain| grain.radius).collect());
     };
-    sizes(distribution).draw(group.count, random).map_err(|invalid| {
-        let problem = Problem::rule(invalid.to_string(), "a distribution that radii can be drawn from");
-        let path = format!("particles[{place}].radius");
-        scenario.mistake(&[&path], problem, "widen `minimum` and `maximum`").into()
+    distribution.draw(group.count, random).map_err(|invalid| {
+        let path = format!("particles[{place}].radius.{}", invalid.parameter);
+        let help = "widen the limits, or take another distribution";
+        scenario.mistake(&[&path], Problem::rule(invalid.found, invalid.expected), help).into()
     })
-}
-
-fn sizes(distribution: &RadiusDistribution) -> Sizes {
-    match distribution.clone() {
-        RadiusDistribution::Fixed { value } => Sizes::Fixed(value),
-        RadiusDistribution::Uniform { minimum, maximum } => Sizes::Uniform { minimum, maximum },
-        RadiusDistribution::Normal { mean, standard_deviation, minimum, maximum } => {
-            Sizes::Normal { mean, standard_deviation, minimum, maximum }
-        }
-        RadiusDistribution::LogNormal { median, sigma, minimum, maximum } => {
-            Sizes::LogNormal { median, sigma, minimum, maximum }
-        }
-        RadiusDistribution::List { values, weights } => {
-            Sizes::List(values.into_iter().zip(weights).collect())
-        }
-    }
 }
 
 fn centres(
@@ -76,24 +58,15 @@ fn centres(
     random: &mut Random,
 ) -> Result<Vec<Vector3>, PrepareError> {
     match &group.arrangement {
-        Arrangement::Lattice(plan) => {
-            // A site is the middle of its cell.
-            let half = 0.5 * plan.spacing;
-            let lattice = Lattice {
-                lower: plan.lower + Vector3::new(half, half, half),
-                counts: plan.counts,
-                spacing: plan.spacing,
-                jitter: plan.jitter,
-            };
-            let mut sites = arrangement::lattice(&lattice, random);
+        Arrangement::Lattice(lattice) => {
+            let mut sites = lattice.positions(random);
             sites.truncate(group.count);
             Ok(sites)
         }
-        Arrangement::Random(extent) => {
-            let region = Region { lower: extent.lower, upper: extent.upper };
+        Arrangement::Random(region) => {
             let present: Vec<_> =
                 present.iter().map(|particle| (particle.position, particle.radius)).collect();
-            random_places(radii, &region, domain, &present, random).map_err(|no_room| {
+            random_positions(radii, region, domain, &present, random).map_err(|no_room| {
                 let problem = Problem::rule(no_room.to_string(), "room for all particles");
                 let path = format!("particles[{place}].arrangement");
                 scenario.mistake(&[&path], problem, "enlarge the region or take fewer particles").into()

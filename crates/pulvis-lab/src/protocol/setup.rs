@@ -42,7 +42,7 @@ pub struct StagePlan {
 
 /// Builds the simulation of a scenario and checks what only its particles can tell.
 pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
-    let domain = domain(scenario);
+    let domain = scenario.domain.unwrap_or(Domain::unbounded());
     let particles = generate(scenario, &domain)?;
     let walls: Vec<Wall> = scenario.walls.iter().map(|plan| wall(scenario, plan)).collect();
     check_start(scenario, &particles, &walls)?;
@@ -59,13 +59,6 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
     let simulation = Simulation::new(setup).map_err(|error| refuse_setup(scenario, &error))?;
     check_overlaps(scenario, &simulation)?;
     Ok(Prepared { simulation, stages, particles })
-}
-
-fn domain(scenario: &Scenario) -> Domain {
-    match &scenario.domain {
-        None => Domain::unbounded(),
-        Some(plan) => Domain::periodic(plan.extent.lower, plan.extent.upper, plan.periodic),
-    }
 }
 
 fn stages(
@@ -85,11 +78,7 @@ fn stages(
         let time_step = time_step(scenario, stage.time, shortest, number)?;
         plans.push(StagePlan {
             interactions,
-            background: Background {
-                gravity: stage.gravity,
-                drag: stage.background.drag,
-                rotational_drag: stage.background.rotational_drag,
-            },
+            background: stage.background,
             time_step,
             shortest,
             walls_present: walls.iter().map(|wall| wall.present).collect(),

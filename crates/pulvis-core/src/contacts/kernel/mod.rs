@@ -12,9 +12,9 @@ use self::pairs::PairSweep;
 use self::walls::WallSweep;
 use super::block::{ContactGroup, Partner};
 use super::chunk::Approach;
-use crate::domain::Images;
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
+use pulvis_boundary::Images;
 
 /// The columns that contacts read. See [`Particles`](crate::Particles) for what the packed vectors hold.
 #[derive(Clone, Copy)]

@@ -6,7 +6,7 @@ use pulvis_math::Vector3;
 
 use super::cell_blocks::CellBlocks;
 use super::classes::Class;
-use crate::domain::Domain;
+use pulvis_boundary::Domain;
 
 /// The cells of particles of like sizes. Particles beyond the outermost cells of an open axis belong
 /// to these: two that are near each other are still in the same or in adjacent cells.
@@ -66,7 +66,7 @@ impl Level {
         let periodic = [0, 1, 2].map(|axis| domain.period(axis).is_some());
         let mut bounds = [0, 1, 2].map(|axis| [class.lower[axis], class.upper[axis]]);
         for axis in (0..3).filter(|&axis| periodic[axis]) {
-            bounds[axis] = [domain.lower()[axis], domain.upper()[axis]];
+            bounds[axis] = [domain.extent.lower[axis], domain.extent.upper[axis]];
         }
         let most = (CELLS_PER_PARTICLE * u64::from(class.count)).clamp(FREE_CELLS, MOST_CELLS) as f64;
         let edge = 2.0 * class.largest + margin;

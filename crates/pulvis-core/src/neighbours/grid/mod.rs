@@ -13,7 +13,7 @@ use self::classes::Classes;
 use self::level::Level;
 pub(crate) use self::search::RowRangePair;
 use crate::counting_sort::counting_sort;
-use crate::domain::Domain;
+use pulvis_boundary::Domain;
 
 /// Particles sorted into levels by size, finest first, and in each level into cells that are wide
 /// enough for its largest particle.

@@ -5,7 +5,7 @@ use pulvis_math::{Vector3, elementary};
 use rand::RngExt;
 
 use super::*;
-use crate::arrangement::random_stream;
+use pulvis_packing::random_stream;
 
 /// A grid and what was sorted into it, in the new order.
 struct Sorted {

@@ -2,7 +2,7 @@
 
 use super::writer::{Writer, key, list, number, quantity, text, vector};
 use crate::scenario::{
-    Arrangement, BoxFace, Extent, ParticleGroup, RadiusDistribution, Scenario, VelocityPlan, Wall,
+    Arrangement, BoxFace, Cuboid, ParticleGroup, RadiusDistribution, Scenario, VelocityPlan, Wall,
 };
 use pulvis_math::Dimension;
 
@@ -40,7 +40,7 @@ impl Scenario {
         }
     }
 
-    fn write_box(&self, writer: &mut Writer, extent: &Extent) {
+    fn write_box(&self, writer: &mut Writer, extent: &Cuboid) {
         let faces: Vec<&Wall> = self.walls.iter().filter(|wall| wall.face.is_some()).collect();
         let periodic = self.domain.map_or([false; 3], |domain| domain.periodic);
         let is_open = |face: &BoxFace| {
@@ -65,7 +65,7 @@ impl Scenario {
     }
 }
 
-fn write_extent(writer: &mut Writer, extent: &Extent) {
+fn write_extent(writer: &mut Writer, extent: &Cuboid) {
     writer.key("lower", vector(extent.lower, Dimension::LENGTH));
     writer.key("upper", vector(extent.upper, Dimension::LENGTH));
 }

@@ -23,7 +23,7 @@ impl Scenario {
             writer.key("title", text(title));
         }
         writer.key("seed", self.seed.to_string());
-        writer.key("gravity", gravity(self.gravity));
+        writer.key("gravity", gravity(self.background.gravity));
         if let Some(domain) = &self.domain {
             writer.table("domain");
             writer.key("lower", vector(domain.extent.lower, Dimension::LENGTH));

@@ -3,24 +3,18 @@
 use super::writer::{Writer, key, number, quantity, text, vector};
 use super::{gravity, key_of_law, law_keys, write_time};
 use crate::scenario::{Background, Contact, Scenario, Stage, StopRules, TimeStep, WallControl};
-use pulvis_math::{Dimension, Vector3};
+use pulvis_math::Dimension;
 
 /// What held before a stage.
 struct Before<'s> {
     contacts: &'s [Contact],
     background: Background,
-    gravity: Vector3,
     time: TimeStep,
 }
 
 impl Scenario {
     pub(super) fn write_stages(&self, writer: &mut Writer) {
-        let mut before = Before {
-            contacts: &self.contacts,
-            background: self.background,
-            gravity: self.gravity,
-            time: self.time,
-        };
+        let mut before = Before { contacts: &self.contacts, background: self.background, time: self.time };
         for stage in &self.stages {
             writer.item("stages");
             writer.key("name", text(&stage.name));
@@ -42,16 +36,16 @@ impl Scenario {
                 writer.table("stages.time");
                 write_time(writer, stage.time);
             }
-            let Stage { contacts, background, gravity, time, .. } = stage;
-            before = Before { contacts, background: *background, gravity: *gravity, time: *time };
+            let Stage { contacts, background, time, .. } = stage;
+            before = Before { contacts, background: *background, time: *time };
         }
     }
 
     /// Paths and values of everything that a stage switches. Laws are set as whole tables.
     fn switches(&self, stage: &Stage, before: &Before<'_>) -> Vec<(String, String)> {
         let mut switches = Vec::new();
-        if stage.gravity != before.gravity {
-            switches.push(("gravity".to_owned(), gravity(stage.gravity)));
+        if stage.background.gravity != before.background.gravity {
+            switches.push(("gravity".to_owned(), gravity(stage.background.gravity)));
         }
         let drags = |background: &Background| [background.drag, background.rotational_drag];
         let names = ["background.drag", "background.rotational_drag"];

@@ -1,22 +1,13 @@
-//! Random places without overlap.
+//! Random positions without overlap.
 
 use std::collections::HashMap;
 
+use pulvis_boundary::{Cuboid, Domain};
 use pulvis_math::{Vector3, elementary};
 use rand::RngExt;
 use thiserror::Error;
 
 use super::Random;
-use crate::domain::Domain;
-
-/// A box that spheres are put into; they lie in it whole, except along periodic directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Region {
-    /// Lower corner [m].
-    pub lower: Vector3,
-    /// Upper corner [m].
-    pub upper: Vector3,
-}
 
 /// There is no room for a sphere.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -38,11 +29,15 @@ pub struct NoRoom {
 
 const ATTEMPTS: usize = 20_000;
 
-/// Random places for spheres of the given radii [m], none of which overlap each other or the
-/// `present` ones (centre [m], radius [m]): random sequential addition, the largest first.
-pub fn random_places(
+/// Random positions for spheres of the given radii [m], none of which overlap each other or the
+/// `present` ones (centre [m], radius [m]): random sequential addition, the largest first. The spheres
+/// lie whole in `region`, except along periodic directions.
+///
+/// # Errors
+/// A sphere finds no room.
+pub fn random_positions(
     radii: &[f64],
-    region: &Region,
+    region: &Cuboid,
     domain: &Domain,
     present: &[(Vector3, f64)],
     random: &mut Random,
@@ -54,7 +49,7 @@ pub fn random_places(
     }
     let mut order: Vec<usize> = (0..radii.len()).collect();
     order.sort_by(|&a, &b| radii[b].total_cmp(&radii[a]).then(a.cmp(&b)));
-    let mut places = vec![Vector3::zero(); radii.len()];
+    let mut positions = vec![Vector3::zero(); radii.len()];
     for (placed, &sphere) in order.iter().enumerate() {
         let radius = radii[sphere];
         let free = (0..ATTEMPTS).find_map(|_| {
@@ -62,22 +57,21 @@ pub fn random_places(
             occupied.is_free(centre, radius).then_some(centre)
         });
         let Some(centre) = free else {
-            let span = region.upper - region.lower;
             let solid: f64 = radii
                 .iter()
                 .map(|&radius| 4.0 / 3.0 * std::f64::consts::PI * elementary::powi(radius, 3))
                 .sum();
-            let solid_fraction = solid / (span.x * span.y * span.z);
+            let solid_fraction = solid / region.volume();
             let wanted = radii.len();
             return Err(NoRoom { placed, wanted, radius, attempts: ATTEMPTS, solid_fraction });
         };
         occupied.add(centre, radius);
-        places[sphere] = centre;
+        positions[sphere] = centre;
     }
-    Ok(places)
+    Ok(positions)
 }
 
-fn draw(region: &Region, domain: &Domain, radius: f64, random: &mut Random) -> Option<Vector3> {
+fn draw(region: &Cuboid, domain: &Domain, radius: f64, random: &mut Random) -> Option<Vector3> {
     let mut centre = Vector3::zero();
     for axis in 0..3 {
         let margin = if domain.period(axis).is_some() { 0.0 } else { radius };
@@ -103,8 +97,8 @@ impl Occupied {
         Self { width, domain, cells: HashMap::new() }
     }
 
-    fn cell(&self, place: Vector3) -> [i64; 3] {
-        [0, 1, 2].map(|axis| (place[axis] / self.width).floor() as i64)
+    fn cell(&self, position: Vector3) -> [i64; 3] {
+        [0, 1, 2].map(|axis| (position[axis] / self.width).floor() as i64)
     }
 
     fn add(&mut self, centre: Vector3, radius: f64) {
@@ -148,20 +142,20 @@ mod tests {
     use super::super::random_stream;
     use super::*;
 
-    fn unit_cube() -> Region {
-        Region { lower: Vector3::zero(), upper: Vector3::new(1.0, 1.0, 1.0) }
+    fn unit_cube() -> Cuboid {
+        Cuboid { lower: Vector3::zero(), upper: Vector3::new(1.0, 1.0, 1.0) }
     }
 
     #[test]
     fn spheres_lie_in_the_region_and_do_not_overlap_not_even_across_a_periodic_boundary() {
         let domain = Domain::periodic(Vector3::zero(), Vector3::new(1.0, 1.0, 1.0), [true, false, true]);
         let radii: Vec<f64> = (0..200).map(|i| 0.03 + 0.0001 * f64::from(i)).collect();
-        let places = random_places(&radii, &unit_cube(), &domain, &[], &mut random_stream(3)).unwrap();
+        let positions = random_positions(&radii, &unit_cube(), &domain, &[], &mut random_stream(3)).unwrap();
         let images = domain.images();
         for i in 0..radii.len() {
-            assert!(places[i].y >= radii[i] && places[i].y <= 1.0 - radii[i]);
+            assert!(positions[i].y >= radii[i] && positions[i].y <= 1.0 - radii[i]);
             for j in 0..i {
-                let distance = images.nearest(places[i] - places[j]).norm();
+                let distance = images.nearest(positions[i] - positions[j]).norm();
                 assert!(distance >= radii[i] + radii[j], "{i} {j}");
             }
         }
@@ -170,7 +164,7 @@ mod tests {
     #[test]
     fn too_many_spheres_are_refused_with_the_solid_fraction() {
         let radii = vec![0.1; 200];
-        let error = random_places(&radii, &unit_cube(), &Domain::unbounded(), &[], &mut random_stream(3));
+        let error = random_positions(&radii, &unit_cube(), &Domain::unbounded(), &[], &mut random_stream(3));
         let error = error.unwrap_err();
         assert!(error.placed < 200 && error.solid_fraction > 0.8);
     }

@@ -2,46 +2,40 @@
 
 use pulvis_math::{Real, Vector3};
 
+use crate::Cuboid;
+
 /// Space, periodic in some directions. Directions that are not periodic are unbounded; what keeps
 /// particles together there is walls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Domain {
-    lower: Vector3,
-    upper: Vector3,
-    periodic: [bool; 3],
+    /// The block that repeats; along directions that are not periodic it means nothing.
+    pub extent: Cuboid,
+    /// Whether x, y, z repeat.
+    pub periodic: [bool; 3],
 }
 
 impl Domain {
     /// Space without any periodic direction.
     pub fn unbounded() -> Self {
-        Self { lower: Vector3::zero(), upper: Vector3::zero(), periodic: [false; 3] }
+        Self::periodic(Vector3::zero(), Vector3::zero(), [false; 3])
     }
 
     /// A box from `lower` to `upper` [m], which repeats itself in the marked directions.
     pub fn periodic(lower: Vector3, upper: Vector3, periodic: [bool; 3]) -> Self {
-        Self { lower, upper, periodic }
+        Self { extent: Cuboid { lower, upper }, periodic }
     }
 
     /// The period along an axis [m], `None` where it is not periodic.
     pub fn period(&self, axis: usize) -> Option<f64> {
-        self.periodic[axis].then(|| self.upper[axis] - self.lower[axis])
-    }
-
-    /// The lower corner of the periodic box [m].
-    pub fn lower(&self) -> Vector3 {
-        self.lower
-    }
-
-    /// The upper corner of the periodic box [m].
-    pub fn upper(&self) -> Vector3 {
-        self.upper
+        self.periodic[axis].then(|| self.extent.size()[axis])
     }
 
     /// The position brought back into the box along the periodic directions.
-    pub(crate) fn wrapped(&self, mut position: Vector3) -> Vector3 {
+    #[inline]
+    pub fn wrapped(&self, mut position: Vector3) -> Vector3 {
         for axis in 0..3 {
             if let Some(period) = self.period(axis) {
-                let turns = ((position[axis] - self.lower[axis]) / period).floor();
+                let turns = ((position[axis] - self.extent.lower[axis]) / period).floor();
                 *position.component_mut(axis) -= turns * period;
             }
         }
@@ -49,7 +43,7 @@ impl Domain {
     }
 
     /// Periods for the contact loop, infinite where there is none.
-    pub(crate) fn images(&self) -> Images {
+    pub fn images(&self) -> Images {
         let periods = [0, 1, 2].map(|axis| self.period(axis).unwrap_or(f64::INFINITY));
         Images { periods, any: self.periodic.contains(&true) }
     }
@@ -57,7 +51,7 @@ impl Domain {
 
 /// The nearest-image rule.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Images {
+pub struct Images {
     periods: [f64; 3],
     any: bool,
 }
@@ -66,7 +60,7 @@ impl Images {
     /// The shortest of the vectors that differ from `separation` by whole periods, for separations
     /// below one and a half periods.
     #[inline(always)]
-    pub(crate) fn nearest<R: Real>(&self, separation: Vector3<R>) -> Vector3<R> {
+    pub fn nearest<R: Real>(&self, separation: Vector3<R>) -> Vector3<R> {
         if !self.any {
             return separation;
         }
@@ -76,12 +70,10 @@ impl Images {
             nearest_along(separation.z, self.periods[2]),
         )
     }
-}
 
-impl Images {
     /// Whether the nearest image of a separation is another one.
     #[inline(always)]
-    pub(crate) fn are_crossed(&self, separation: Vector3) -> bool {
+    pub fn are_crossed(&self, separation: Vector3) -> bool {
         let beyond = |axis: usize| separation[axis].abs() > 0.5 * self.periods[axis];
         self.any && (beyond(0) | beyond(1) | beyond(2))
     }

@@ -19,25 +19,25 @@ pub struct Background {
 
 /// What the background takes from a particle.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Drag {
+pub struct Drag {
     /// Against the velocity [N].
-    pub(crate) force: Vector3,
+    pub force: Vector3,
     /// Against the angular velocity [N m].
-    pub(crate) torque: Vector3,
+    pub torque: Vector3,
     /// Power lost [W].
-    pub(crate) power: f64,
+    pub power: f64,
 }
 
 impl Background {
     /// Whether there is any drag.
     #[inline(always)]
-    pub(crate) fn has_drag(&self) -> bool {
+    pub fn has_drag(&self) -> bool {
         self.drag != 0.0 || self.rotational_drag != 0.0
     }
 
     /// The drag on a particle of the given velocity [m/s], angular velocity [rad/s] and radius [m].
     #[inline(always)]
-    pub(crate) fn drag_on(&self, velocity: Vector3, angular_velocity: Vector3, radius: f64) -> Drag {
+    pub fn drag_on(&self, velocity: Vector3, angular_velocity: Vector3, radius: f64) -> Drag {
         let turning = self.rotational_drag * radius * radius;
         Drag {
             force: velocity * self.drag,

@@ -1,0 +1,12 @@
+//! What surrounds the particles: blocks of space, periodic directions, gravity and drag.
+//!
+//! These are the types that scenario files are read into, that packings are made in and that the engine
+//! computes with. They know no particles, no engine and no files.
+
+mod background;
+mod cuboid;
+mod domain;
+
+pub use background::{Background, Drag};
+pub use cuboid::Cuboid;
+pub use domain::{Domain, Images};

@@ -1,0 +1,22 @@
+//! Initial packings: how large particles are and where they start. Everything random comes from one seed.
+//!
+//! This crate knows no engine and no file. Scenarios are read into its types, and the engine gets what
+//! comes out of them.
+
+mod gaussian;
+mod lattice;
+mod radius;
+mod random;
+
+pub use gaussian::gaussian_vector;
+pub use lattice::Lattice;
+pub use radius::{InvalidDistribution, LEAST_SHARE, RadiusDistribution};
+pub use rand_chacha::ChaCha8Rng as Random;
+pub use random::{NoRoom, random_positions};
+
+use rand::SeedableRng;
+
+/// A stream of random numbers that is the same on every machine.
+pub fn random_stream(seed: u64) -> Random {
+    Random::seed_from_u64(seed)
+}
