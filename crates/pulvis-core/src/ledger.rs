@@ -1,5 +1,7 @@
 //! The energy ledger: every joule has an account.
 
+mod record;
+
 use pulvis_contact::ContactEnergies;
 
 /// All accounts at one time. What the system holds, what it has lost and what was done on it; the

@@ -4,6 +4,7 @@
 //! new list of candidates, time moves by synchronised velocity-Verlet, and an energy ledger closes
 //! over it all. Nothing here knows files.
 
+mod columns;
 mod contacts;
 mod counting_sort;
 mod integrator;
@@ -18,12 +19,15 @@ mod thread_pool;
 mod time_step;
 pub mod walls;
 
-pub use contacts::{ContactPartner, ContactView, Interactions};
+pub use columns::{NameError, NamedColumn};
+pub use contacts::{ContactPartner, ContactRecords, ContactView, Interactions, MemoryError};
 pub use ledger::Ledger;
 pub use particles::{MaterialIndex, Particle, ParticleId, Particles, Vectors};
 pub use phases::Phases;
 pub use pulvis_boundary::{Background, Domain};
 pub use pulvis_math::InstructionSet;
 pub use region::Region;
-pub use simulation::{Setup, SetupError, Simulation, StepError};
+pub use simulation::{
+    ListState, ParticleState, Setup, SetupError, Simulation, State, StateError, StepError, WallRecord,
+};
 pub use time_step::{ShortestContact, shortest_contact};

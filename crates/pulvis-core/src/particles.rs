@@ -4,6 +4,7 @@ use std::ops::{Index, Range};
 
 use pulvis_math::{Packed4, Vector3, elementary};
 
+use crate::columns::NamedColumn;
 use crate::thread_pool::ThreadPool;
 
 /// A particle's name: stable for its whole life, what files and interfaces show. Rows move when the
@@ -57,6 +58,8 @@ pub struct Particles {
     pub(crate) velocity_predicted: Vec<Packed4>,
     /// Angular velocity [rad/s] and 1/radius [1/m].
     pub(crate) angular_velocity_predicted: Vec<Packed4>,
+    /// Quantities that no part of the engine needs to know.
+    pub(crate) columns: Vec<NamedColumn>,
     /// The id that the next particle will get: no id is given twice.
     pub(crate) next_id: ParticleId,
 }
@@ -216,6 +219,16 @@ impl Particles {
         Vectors(Column::Torques(&self.forces_and_torques[..self.len()]))
     }
 
+    /// Further quantities by name; their values are one a row.
+    pub fn columns(&self) -> &[NamedColumn] {
+        &self.columns
+    }
+
+    /// The quantity of this name, if there is one; its values are one a row.
+    pub fn column(&self, name: &str) -> Option<&NamedColumn> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+
     /// The rows in the order of their ids: what files and interfaces should iterate over.
     pub fn rows_by_id(&self) -> Vec<usize> {
         let mut rows: Vec<usize> = (0..self.len()).collect();
@@ -237,6 +250,9 @@ impl Particles {
         let mut numbers = Vec::new();
         pool.reorder(&mut self.radius, order, &mut numbers);
         pool.reorder(&mut self.mass, order, &mut numbers);
+        for column in &mut self.columns {
+            pool.reorder(&mut column.values, order, &mut numbers);
+        }
         let mut packed = Vec::new();
         for column in [
             &mut self.position,

@@ -57,6 +57,11 @@ impl ContactTable {
         self.chunks.iter().flat_map(|chunk| &chunk.groups)
     }
 
+    /// The same, to be changed.
+    pub(super) fn groups_mut(&mut self) -> impl Iterator<Item = &mut ContactGroup> {
+        self.chunks.iter_mut().flat_map(|chunk| &mut chunk.groups)
+    }
+
     /// The runs of rows that threads take their work by.
     pub(crate) fn chunks(&self) -> &[Chunk] {
         &self.chunks

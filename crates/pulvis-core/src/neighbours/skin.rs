@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use pulvis_math::{InstructionSet, Packed4};
+use pulvis_math::{InstructionSet, Packed4, Vector3};
 
 use super::moved::{Moved, Survey};
 use crate::particles::Particles;
 use crate::thread_pool::ThreadPool;
+use crate::walls::Wall;
 
 /// How far particles and walls may move before candidates are listed anew, and where they were when that was done.
 ///
@@ -19,10 +20,11 @@ pub(crate) struct Skin {
     pub(crate) thickest: f64,
     pub(crate) thinnest: f64,
     /// Centres when the candidates were listed [m], and radii with skins [m].
-    positions: Vec<Packed4>,
-    walls: Vec<f64>,
+    pub(crate) positions: Vec<Packed4>,
+    /// Reference points of the walls then [m].
+    pub(crate) walls: Vec<Vector3>,
     /// Steps since the list was made.
-    steps: u64,
+    pub(crate) steps: u64,
 }
 
 /// Steps that a list should last: a skin is as thick as what its particle moves in so many. The engine
@@ -93,9 +95,9 @@ impl Skin {
     }
 
     /// Takes in where walls are.
-    pub(crate) fn renew_walls(&mut self, offsets: impl Iterator<Item = f64>) {
+    pub(crate) fn renew_walls(&mut self, walls: &[Wall]) {
         self.walls.clear();
-        self.walls.extend(offsets);
+        self.walls.extend(walls.iter().map(|wall| wall.point));
     }
 
     /// The particles are in a new order: row k is what was row `order[k]`.
@@ -130,8 +132,9 @@ impl Skin {
     }
 
     /// The longest way of any wall since the list was made [m].
-    pub(crate) fn moved_walls(&self, offsets: impl Iterator<Item = f64>) -> f64 {
-        offsets.zip(&self.walls).map(|(now, before)| (now - before).abs()).fold(0.0, f64::max)
+    pub(crate) fn moved_walls(&self, walls: &[Wall]) -> f64 {
+        let way = |(now, before): (&Wall, &Vector3)| (now.offset() - before.dot(now.normal)).abs();
+        walls.iter().zip(&self.walls).map(way).fold(0.0, f64::max)
     }
 
     /// Whether the list still holds, when so much is `left` of any particle's skin [m] and walls have moved
@@ -144,8 +147,6 @@ impl Skin {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-    use pulvis_math::Vector3;
 
     use super::*;
 

@@ -66,6 +66,14 @@ pub enum SetupError {
         /// The largest id that there can be.
         most: ParticleId,
     },
+    /// A quantity of the particles is not given as it must be.
+    #[error("quantity `{name}` of the particles: {problem}")]
+    Column {
+        /// Its name.
+        name: String,
+        /// What is wrong.
+        problem: String,
+    },
     /// A particle was to be removed that is not there.
     #[error("there is no particle {id} to be removed: it was never there, or it has been removed before")]
     UnknownParticle {

@@ -1,6 +1,7 @@
 //! Particles that come and go between steps.
 
 use super::{Simulation, check_count};
+use crate::columns::NamedColumn;
 use crate::particles::{Particle, ParticleId};
 use crate::region::Region;
 use crate::{Particles, SetupError};
@@ -13,8 +14,23 @@ impl Simulation {
     /// none is given twice.
     ///
     /// # Errors
-    /// What [`new`](Self::new) refuses, and more particles than there are ids left. Nothing has changed then.
+    /// What [`new`](Self::new) refuses, more particles than there are ids left, and particles without values where
+    /// there are [columns](Self::set_column). Nothing has changed then.
     pub fn insert(&mut self, particles: &[Particle]) -> Result<Vec<ParticleId>, SetupError> {
+        self.insert_with(particles, &[])
+    }
+
+    /// Inserts particles with the values that they have in all [columns](Self::set_column), in the order of the
+    /// particles.
+    ///
+    /// # Errors
+    /// As those of [`insert`](Self::insert), and columns that are not those of the particles that are there.
+    pub fn insert_with(
+        &mut self,
+        particles: &[Particle],
+        columns: &[NamedColumn],
+    ) -> Result<Vec<ParticleId>, SetupError> {
+        self.check_columns(columns, particles.len())?;
         if particles.is_empty() {
             return Ok(Vec::new());
         }
@@ -30,6 +46,10 @@ impl Simulation {
         // The ledger is drawn up before there are rows without forces.
         let closing_error = self.ledger().closing_error();
         let ids = self.particles.append(particles);
+        for column in &mut self.particles.columns {
+            let new = columns.iter().filter(|new| new.name == column.name);
+            new.for_each(|new| column.values.extend_from_slice(&new.values));
+        }
         self.take_in_particles();
         if let Err(error) = self.check_models().and_then(|()| self.check_periods()) {
             self.particles.truncate(before);

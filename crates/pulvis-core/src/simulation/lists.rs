@@ -6,7 +6,6 @@ use crate::neighbours::{CellGrid, Moved};
 use crate::particles::ForceTorque;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
-use crate::walls::Wall;
 
 /// The thickest skin of a particle over the mean radius, in a packing and in a gas. Lists with thicker skins are
 /// renewed less often but hold more candidates that do not touch; a gas has few.
@@ -122,16 +121,26 @@ impl Simulation {
     pub(super) fn rebuild(&mut self, former: Option<&[u32]>) {
         self.wrap();
         self.skin.renew(&self.particles, self.time_step, &self.pool);
-        self.skin.renew_walls(self.walls.iter().map(Wall::offset));
+        self.skin.renew_walls(&self.walls);
         let (grid, order) =
             CellGrid::sort(&self.domain, self.skin.positions(), self.interactions.interaction_range());
-        let rows_of_then: Option<Vec<u32>> =
-            former.map(|former| order.iter().map(|&row| former[row as usize]).collect());
         self.particles.reorder(&order, &self.pool);
         self.skin.reorder(&order, &self.pool);
+        match former {
+            Some(former) => {
+                let rows_of_then: Vec<u32> = order.iter().map(|&row| former[row as usize]).collect();
+                self.list_candidates(&grid, &rows_of_then);
+            }
+            None => self.list_candidates(&grid, &order),
+        }
+        self.former_rows = order;
+    }
+
+    /// Lists the candidates among particles in cell order, which had `rows_of_then` when they were last listed.
+    pub(super) fn list_candidates(&mut self, grid: &CellGrid, rows_of_then: &[u32]) {
         let around = Surroundings {
             particles: &self.particles,
-            order: rows_of_then.as_ref().unwrap_or(&order),
+            order: rows_of_then,
             materials: &self.materials,
             interactions: &self.interactions,
             walls: &self.walls,
@@ -139,7 +148,7 @@ impl Simulation {
             skin: &self.skin,
             instructions: self.instructions,
         };
-        let slots = self.contacts.rebuild(&around, &grid, &self.memory, &self.pool);
+        let slots = self.contacts.rebuild(&around, grid, &self.memory, &self.pool);
         self.particles.forces_and_torques.resize(slots, ForceTorque::default());
         self.outcomes.clear();
         let moved = Moved::nowhere(self.skin.thinnest);

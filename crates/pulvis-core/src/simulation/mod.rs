@@ -1,13 +1,16 @@
 //! Many bodies, one step after another.
 
+mod columns;
 mod errors;
 mod insertion;
 mod lists;
 mod observe;
+mod state;
 mod steps;
 mod switch;
 
 pub use errors::{SetupError, StepError};
+pub use state::{ListState, ParticleState, State, StateError, WallRecord};
 
 use pulvis_math::{InstructionSet, Packed4, Vector3};
 
@@ -56,6 +59,8 @@ pub struct Simulation {
     contacts: ContactTable,
     /// What contacts remember while they are listed anew.
     memory: MemoryStore,
+    /// The row that each particle had before it was put into the present order.
+    former_rows: Vec<u32>,
     pool: ThreadPool,
     instructions: InstructionSet,
     accounting: bool,
@@ -113,35 +118,9 @@ impl Simulation {
             return Err(SetupError::TimeStep(time_step));
         }
         check_count(particles.len())?;
-        let mut simulation = Self {
-            particles: Particles::new(&particles),
-            interactions,
-            wall_states: vec![WallState::default(); walls.len()],
-            wall_starts: vec![0.0; walls.len()],
-            walls,
-            domain,
-            background,
-            time_step,
-            step: 0,
-            time: 0.0,
-            contacts: ContactTable::default(),
-            memory: MemoryStore::default(),
-            pool: ThreadPool::default(),
-            instructions: InstructionSet::widest(),
-            accounting: true,
-            phases: None,
-            materials: Vec::new(),
-            outcomes: Vec::new(),
-            walls_now: Vec::new(),
-            on_particles: Vec::new(),
-            skin: Skin::default(),
-            chooses_skin: true,
-            mean_radius: 0.0,
-            running: Running::default(),
-            rebuilds: 0,
-        };
-        simulation.list_materials();
-        simulation.on_particles = vec![Vector3::zero(); simulation.walls.len()];
+        let particles = Particles::new(&particles);
+        let mut simulation =
+            Self::without_list(particles, interactions, walls, domain, background, time_step);
         simulation.check_models()?;
         simulation.check_walls()?;
         simulation.choose_first_skin();
@@ -157,6 +136,47 @@ impl Simulation {
         simulation.running.forget_losses();
         simulation.running.initial = simulation.ledger().stored();
         Ok(simulation)
+    }
+
+    /// At time zero, at rest, with nothing listed, checked or computed yet.
+    fn without_list(
+        particles: Particles,
+        interactions: Interactions,
+        walls: Vec<Wall>,
+        domain: Domain,
+        background: Background,
+        time_step: f64,
+    ) -> Self {
+        let mut simulation = Self {
+            particles,
+            interactions,
+            wall_states: vec![WallState::default(); walls.len()],
+            wall_starts: vec![0.0; walls.len()],
+            domain,
+            background,
+            time_step,
+            step: 0,
+            time: 0.0,
+            contacts: ContactTable::default(),
+            memory: MemoryStore::default(),
+            former_rows: Vec::new(),
+            pool: ThreadPool::default(),
+            instructions: InstructionSet::widest(),
+            accounting: true,
+            phases: None,
+            materials: Vec::new(),
+            outcomes: Vec::new(),
+            walls_now: Vec::new(),
+            on_particles: vec![Vector3::zero(); walls.len()],
+            skin: Skin::default(),
+            chooses_skin: true,
+            mean_radius: 0.0,
+            running: Running::default(),
+            rebuilds: 0,
+            walls,
+        };
+        simulation.list_materials();
+        simulation
     }
 
     fn list_materials(&mut self) {
@@ -283,8 +303,10 @@ impl Simulation {
 
     /// Memory of particles, candidates and contact memory [byte].
     pub fn memory_size(&self) -> usize {
-        // The skin keeps one more packed vector for each particle.
-        let rows = self.particles.len() * (Particles::BYTES + size_of::<Packed4>());
+        // The skin keeps one more packed vector for each particle, the list the row that it had before.
+        let columns = self.particles.columns().len() * size_of::<f64>();
+        let row = Particles::BYTES + size_of::<Packed4>() + size_of::<u32>() + columns;
+        let rows = self.particles.len() * row;
         rows + size_of_val(&self.particles.forces_and_torques[..])
             + self.contacts.memory_size()
             + self.memory.memory_size()

@@ -8,7 +8,6 @@ use crate::integrator::{Columns, HalfKicks, Step};
 use crate::neighbours::Moved;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
-use crate::walls::Wall;
 
 impl Simulation {
     /// One time step.
@@ -75,7 +74,7 @@ impl Simulation {
     /// Lists the candidates anew if particles have moved too far; otherwise tells the contacts by how much
     /// gaps can have closed.
     fn renew_if_outdated(&mut self) -> Result<(), StepError> {
-        let walls = self.skin.moved_walls(self.walls.iter().map(Wall::offset));
+        let walls = self.skin.moved_walls(&self.walls);
         let surveyed = self.skin.count_step();
         if surveyed {
             self.survey();

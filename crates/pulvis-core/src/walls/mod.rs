@@ -1,6 +1,7 @@
 //! Plane walls and what moves them. One file a motion; the list is in this file.
 
 mod cosine;
+mod record;
 mod servo;
 mod velocity;
 

@@ -1,0 +1,75 @@
+//! Quantities of particles by name.
+
+use super::{SetupError, Simulation};
+use crate::columns::NamedColumn;
+
+/// Columns: quantities that the engine carries along with the particles, such as a charge or a temperature. They are
+/// put into a new order with them, exported, and given for particles that are inserted.
+impl Simulation {
+    /// Gives all particles a quantity, or other values of one that they have. The values are in the order of the ids.
+    ///
+    /// # Errors
+    /// There is not one finite value for each particle, or the column has no name. Nothing has changed then.
+    pub fn set_column(&mut self, column: NamedColumn) -> Result<(), SetupError> {
+        check_column(&column, self.particles.len())?;
+        let mut values = vec![0.0; column.values.len()];
+        for (row, value) in self.particles.rows_by_id().into_iter().zip(column.values) {
+            values[row] = value;
+        }
+        let column = NamedColumn { values, ..column };
+        let columns = &mut self.particles.columns;
+        match columns.iter_mut().find(|known| known.name == column.name) {
+            Some(known) => *known = column,
+            None => columns.push(column),
+        }
+        Ok(())
+    }
+
+    /// Refuses columns that are not those of the particles, with `count` values each.
+    pub(super) fn check_columns(&self, given: &[NamedColumn], count: usize) -> Result<(), SetupError> {
+        let known = self.particles.columns();
+        for column in known {
+            match given.iter().filter(|new| new.name == column.name).count() {
+                1 => {}
+                0 => {
+                    return refuse(
+                        column,
+                        "particles have it, but no values are given for those that come".into(),
+                    );
+                }
+                _ => return refuse(column, "it is given twice".into()),
+            }
+        }
+        for column in given {
+            check_column(column, count)?;
+            match self.particles.column(&column.name) {
+                None => return refuse(column, "the particles that are there do not have it".into()),
+                Some(known) if known.unit != column.unit => {
+                    return refuse(
+                        column,
+                        format!("its unit is `{}`, expected `{}`", column.unit, known.unit),
+                    );
+                }
+                Some(_) => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+fn check_column(column: &NamedColumn, count: usize) -> Result<(), SetupError> {
+    if column.name.is_empty() {
+        return refuse(column, "a column without a name; give it one".into());
+    }
+    if column.values.len() != count {
+        return refuse(column, format!("{} values for {count} particles", column.values.len()));
+    }
+    match column.values.iter().find(|value| !value.is_finite()) {
+        Some(value) => refuse(column, format!("a value is {value}, expected a finite number")),
+        None => Ok(()),
+    }
+}
+
+fn refuse(column: &NamedColumn, problem: String) -> Result<(), SetupError> {
+    Err(SetupError::Column { name: column.name.clone(), problem })
+}

@@ -1,0 +1,138 @@
+//! A state out of a simulation.
+
+use pulvis_math::{Packed4, Vector3};
+
+use super::{ListState, ParticleState, State, WallRecord};
+use crate::neighbours::{Moved, Skin};
+use crate::particles::{ForceTorque, Particles};
+use crate::simulation::{Outcome, Simulation};
+use crate::walls::{Wall, WallState};
+
+impl Simulation {
+    /// Everything that decides the next bit. Nothing changes in the simulation that it is taken from: that goes on as
+    /// if nobody had asked.
+    pub fn export_state(&self) -> State {
+        // Whoever adds a field must say here whether it decides a bit.
+        let Self {
+            particles,
+            // Given again at the import.
+            interactions: _,
+            walls,
+            wall_states,
+            wall_starts,
+            domain,
+            background,
+            time_step,
+            step,
+            time,
+            contacts,
+            // Filled and used up in a rebuild.
+            memory: _,
+            former_rows,
+            // Decide the speed only.
+            pool: _,
+            instructions: _,
+            phases: _,
+            accounting,
+            // Follow from the particles.
+            materials: _,
+            outcomes,
+            // Written in every step before they are read.
+            walls_now: _,
+            on_particles: _,
+            skin,
+            chooses_skin,
+            mean_radius,
+            running,
+            rebuilds,
+        } = self;
+        let (memory, active) = contacts.export(&particles.id);
+        let list = ListState {
+            rebuilds: *rebuilds,
+            chooses_skin: *chooses_skin,
+            mean_radius: *mean_radius,
+            former_row: former_rows.clone(),
+            active,
+            ..list_of(skin, outcomes)
+        };
+        State {
+            step: *step,
+            time: *time,
+            time_step: *time_step,
+            domain: *domain,
+            background: *background,
+            keeps_ledger: *accounting,
+            next_id: particles.next_id,
+            particles: particles_of(particles),
+            walls: walls_of(walls, wall_states, wall_starts, &skin.walls),
+            list,
+            memory,
+            ledger: running.numbers(),
+        }
+    }
+}
+
+fn particles_of(particles: &Particles) -> ParticleState {
+    let Particles {
+        id,
+        material,
+        radius,
+        mass,
+        position,
+        velocity,
+        angular_velocity,
+        forces_and_torques,
+        // Written at the beginning of a step, before they are read.
+        velocity_predicted: _,
+        angular_velocity_predicted: _,
+        columns,
+        next_id: _,
+    } = particles;
+    let vectors = |column: &[Packed4]| column.iter().map(|packed| packed.vector.to_array()).collect();
+    // Behind those of the rows stand the halos' sums of the last step.
+    let loads = &forces_and_torques[..id.len()];
+    ParticleState {
+        id: id.clone(),
+        material: material.clone(),
+        radius: radius.clone(),
+        mass: mass.clone(),
+        position: vectors(position),
+        velocity: vectors(velocity),
+        angular_velocity: vectors(angular_velocity),
+        force: loads.iter().map(|ForceTorque { force, .. }| force.vector.to_array()).collect(),
+        torque: loads.iter().map(|ForceTorque { torque, .. }| torque.vector.to_array()).collect(),
+        columns: columns.clone(),
+    }
+}
+
+fn walls_of(walls: &[Wall], states: &[WallState], starts: &[f64], listed: &[Vector3]) -> Vec<WallRecord> {
+    let record = |(((wall, state), start), listed): (((&Wall, &WallState), &f64), &Vector3)| WallRecord {
+        name: wall.name.clone(),
+        present: wall.present,
+        point: wall.point.to_array(),
+        listed_point: listed.to_array(),
+        motion_start: *start,
+        motion: state.numbers(),
+    };
+    walls.iter().zip(states).zip(starts).zip(listed).map(record).collect()
+}
+
+/// What skins and integration know of the list.
+fn list_of(skin: &Skin, outcomes: &[Outcome]) -> ListState {
+    let Skin { thickest, thinnest, positions, walls: _, steps } = skin;
+    let mut list = ListState {
+        steps: *steps,
+        skin_thickest: *thickest,
+        skin_thinnest: *thinnest,
+        position: positions.iter().map(|listed| listed.vector.to_array()).collect(),
+        radius_with_skin: positions.iter().map(|listed| listed.scalar).collect(),
+        ..ListState::default()
+    };
+    // The speeds and powers of the last kicks have been used up.
+    for Outcome { kicked: _, moved: Moved { longest, second, left }, seconds: _ } in outcomes {
+        list.displacement_largest.push(*longest);
+        list.displacement_second.push(*second);
+        list.remaining_skin.push(*left);
+    }
+    list
+}
