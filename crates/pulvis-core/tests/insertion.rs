@@ -1,5 +1,5 @@
 //! Particles come and go between steps: the ledger stays closed, contacts of those that stay remember.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
 mod common;
 
