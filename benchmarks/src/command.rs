@@ -133,14 +133,15 @@ impl Run {
     /// The instruction set asked for, if any.
     pub(crate) fn instructions(&self) -> Result<Option<InstructionSet>, Failure> {
         let Some(name) = &self.instructions else { return Ok(None) };
-        let available = InstructionSet::available();
-        match available.iter().find(|set| set.to_string() == *name) {
-            Some(&set) => Ok(Some(set)),
-            None => Err(Failure::Instructions {
-                found: name.clone(),
-                expected: available.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
-            }),
-        }
+        let unknown = || Failure::Instructions {
+            found: name.clone(),
+            expected: InstructionSet::available()
+                .iter()
+                .map(ToString::to_string)
+                .collect::<Vec<_>>()
+                .join(", "),
+        };
+        InstructionSet::named(name).map(Some).ok_or_else(unknown)
     }
 }
 

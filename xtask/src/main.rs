@@ -27,6 +27,7 @@ usage: cargo xtask <task>
   experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
   features FOLDER      says what is seen in the tablet's run in FOLDER, and whether it is what was asked for
   scenarios            shows every good and bad scenario of the tests to the pulvis command
+  golden-bits          writes the bits of the runs of crates/pulvis-cli/tests/golden_bits anew
   figures              makes the pictures of README and docs anew
   book                 writes the book's table of laws from the catalogue, builds the book if mdbook is there
   book --check         says whether that table is up to date
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         ["experiments", folder] => experiments::run(Some(folder)),
         ["features", folder] => features::run(folder),
         ["scenarios"] => scenarios::run(),
+        ["golden-bits"] => tests::renew_golden_bits(),
         ["figures"] => figures::run_all(),
         ["book"] => book::write(),
         ["book", "--check"] => book::check(),

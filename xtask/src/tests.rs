@@ -18,6 +18,14 @@ pub fn run_all() -> Outcome {
     sample_files()
 }
 
+/// Writes the bits anew that the runs of `crates/pulvis-cli/tests/golden_bits` give now.
+pub fn renew_golden_bits() -> Outcome {
+    let mut command = cargo(&["test", "--quiet", "-p", "pulvis-cli", "--test", "golden_bits"]);
+    run(command.env("PULVIS_RENEW_GOLDEN_BITS", "1"))?;
+    println!("look at what `git diff crates/pulvis-cli/tests/golden_bits` shows before you commit it");
+    Ok(())
+}
+
 /// The files that a run leaves, read by the VTK library itself.
 fn sample_files() -> Outcome {
     let folder = scratch("sample_run")?;

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use pulvis_core::InstructionSet;
 use pulvis_input::scenario::Scenario;
 use pulvis_lab::protocol::{Progress, RunOptions, RunSummary, run};
 
@@ -31,9 +32,19 @@ pub struct Arguments {
     /// Number of threads; results do not depend on it [default: all processors that get 500 particles each]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Instruction set (sse2, avx2, avx512); results do not depend on it [default: the widest of the processor]
+    #[arg(long, value_name = "SET", value_parser = instruction_set)]
+    instructions: Option<InstructionSet>,
     /// No progress line
     #[arg(short, long)]
     quiet: bool,
+}
+
+/// An instruction set by its name.
+fn instruction_set(name: &str) -> Result<InstructionSet, String> {
+    let available =
+        || InstructionSet::available().iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    InstructionSet::named(name).ok_or_else(|| format!("this processor has {}", available()))
 }
 
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
@@ -47,6 +58,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         folder: arguments.output.clone(),
         force: arguments.force,
         threads: arguments.threads.map(usize::from),
+        instructions: arguments.instructions,
         version: env!("CARGO_PKG_VERSION").to_owned(),
     };
     let mut line = ProgressLine::new(arguments.quiet);

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use pulvis_core::Simulation;
 use pulvis_core::walls::WallMotion;
+use pulvis_core::{InstructionSet, Simulation};
 use pulvis_input::scenario::{Scenario, Snapshots as SnapshotPlan, WallControl};
 use pulvis_io::table::TimeSeriesWriter;
 
@@ -28,6 +28,8 @@ pub struct RunOptions {
     /// Number of threads; as many as there are processors and work for them where `None`. Results do
     /// not depend on it.
     pub threads: Option<usize>,
+    /// The instruction set; the widest that the processor has where `None`. Results do not depend on it.
+    pub instructions: Option<InstructionSet>,
     /// Version of the program, for the record.
     pub version: String,
 }
@@ -117,6 +119,9 @@ pub fn run(
     run.simulation
         .set_threads(threads)
         .map_err(|source| RunError::Switch { stage: scenario.stages[0].name.clone(), source })?;
+    if let Some(instructions) = options.instructions {
+        run.simulation.set_instructions(instructions);
+    }
     let stages = run.stages(stop, watch)?;
     run.finish(stages, folder.clone())
 }

@@ -33,6 +33,7 @@ pub fn options(folder: &Path) -> RunOptions {
         folder: Some(folder.to_path_buf()),
         force: false,
         threads: Some(1),
+        instructions: None,
         version: "test".to_owned(),
     }
 }

@@ -185,6 +185,11 @@ impl InstructionSet {
         Self::available().pop().unwrap_or(Self(Level::Plain))
     }
 
+    /// The one of that name (see [`Display`](fmt::Display)), if this processor can run it.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::available().into_iter().find(|set| set.to_string() == name)
+    }
+
     /// Runs the kernel compiled for this instruction set.
     #[inline]
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
