@@ -28,6 +28,7 @@ fn draw(folder: &Path) -> Result<(), IoError> {
             .panel(force())
             .panel(energies());
         figure.write(&folder.join("impact").with_extension(ending))?;
+        broken().write(&folder.join("broken").with_extension(ending))?;
         strange().write(&folder.join("strange").with_extension(ending))?;
     }
     Ok(())
@@ -91,6 +92,35 @@ fn energies() -> Chart {
         .series(Series::points("series 3", symbols(0)))
         .series(Series::points("series 5", symbols(1)).colour(5))
         .series(Series::points("series 6", symbols(2)).colour(6))
+}
+
+/// A run that explodes, in four views: values that end, infinities, one spike, nothing finite.
+fn broken() -> Figure {
+    let over_time =
+        |of: fn(f64) -> f64| (0..600).map(move |n| (1.0e-6 * f64::from(n), of(f64::from(n) / 600.0)));
+    let stages = |chart: Chart| {
+        chart.x_label("time [s]").section(0.0, "settle").section(2.0e-4, "press").section(5.0e-4, "hold")
+    };
+    let energies = stages(Chart::new("Tablet: energies held").y_label("energy [J]"))
+        .series(Series::line("kinetic", over_time(|s| if s < 0.6 { 0.02 * s } else { f64::NAN })))
+        .series(Series::line("elastic", over_time(|s| if s < 0.6 { 0.02 * s } else { f64::INFINITY })))
+        .series(Series::line("adhesive", over_time(|s| if s < 0.7 { 0.02 * s } else { f64::NEG_INFINITY })))
+        .series(Series::line("gravity", over_time(|s| 0.01 - 0.01 * s)));
+    let stress =
+        stages(Chart::new("Stress").y_label("stress [Pa]").robust_y().zero_line()).series(Series::line(
+            "z",
+            over_time(|s| if (s - 0.4).abs() < 1e-3 { -700.0 } else { 40.0 * (20.0 * s).sin() }),
+        ));
+    let nothing = |_: f64| f64::NAN;
+    Figure::new()
+        .title("An exploded run")
+        .panel(energies)
+        .panel(stress)
+        .panel(
+            stages(Chart::new("Error").y_label("relative error [1]"))
+                .series(Series::line("", over_time(nothing))),
+        )
+        .panel(Chart::new("No curve at all").x_label("time [s]"))
 }
 
 /// What must not panic: nothing, not-a-number, one point, numbers at the ends of f64.

@@ -16,8 +16,8 @@
 //!   so a killed run, a full disk or a reader that looks too early never meets half a file. Time series, which grow, are
 //!   handed to the system in complete lines.
 //! * **The same input gives the same bytes.** No date, host name or random identifier is written.
-//! * **Strange numbers do no harm.** Not-a-number and infinities are kept in VTK and CSV, become `null` in JSON and gaps
-//!   in plots; nothing panics.
+//! * **Strange numbers do no harm.** Not-a-number and infinities are kept in VTK and CSV, become `null` in JSON, and gaps
+//!   or marks with a note in plots and pictures; nothing panics.
 //! * **Errors say what to do.** All are [`IoError`].
 //!
 //! ```

@@ -1,9 +1,9 @@
 //! Title and colour bar.
 
 use super::SphereScene;
-use crate::plot::axis::{Scale, power_of_ten};
+use crate::plot::axis::Scale;
 use crate::plot::canvas::{Across, Along, Canvas, Setting, Stroke, text_width};
-use crate::plot::{Axis, raster};
+use crate::plot::{Axis, raster, unit};
 use crate::{Colour, IoError};
 use plotters::prelude::{BitMapBackend, IntoDrawingArea};
 
@@ -72,7 +72,7 @@ fn overlay(
     let mut large = vec![255_u8; 3 * wide as usize * high as usize];
     {
         let area = BitMapBackend::with_buffer(&mut large, (wide, high)).into_drawing_area();
-        draw(&Canvas::new(area, f64::from(OVERSAMPLING), Stroke::Filled)?, &layout(scene))?;
+        draw(&Canvas::new(area, f64::from(OVERSAMPLING), Stroke::Filled), &layout(scene))?;
     }
     let small = raster::average(&large, wide as usize, OVERSAMPLING as usize);
     let row = 3 * scene.width as usize;
@@ -102,7 +102,7 @@ fn draw_bar(
     }
     let frame = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top), (right, top)];
     canvas.line(&frame, INK, 1.2)?;
-    let axis = Axis { range: Some(range), ..Axis::default() };
+    let axis = Axis { range: Some(range), label: scene.bar_label.to_owned(), ..Axis::default() };
     let (ticks, exponent) = Scale::new(&axis, std::iter::empty()).ticks(6.0);
     let mut widest = 0.0_f64;
     for tick in &ticks {
@@ -112,11 +112,7 @@ fn draw_bar(
         canvas.text(place, &tick.label, setting(font, Along::Start, Across::Middle, false))?;
         widest = widest.max(text_width(&tick.label, font));
     }
-    let label = if exponent == 0 {
-        scene.bar_label.to_owned()
-    } else {
-        format!("{}   ×{}", scene.bar_label, power_of_ten(exponent))
-    };
+    let label = unit::label(scene.bar_label, exponent);
     let x = right + 0.6 * font + widest + 0.5 * font;
     canvas.text((x, 0.5 * (top + bottom)), &label, setting(font, Along::Middle, Across::Top, true))
 }

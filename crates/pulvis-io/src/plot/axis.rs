@@ -1,13 +1,15 @@
 //! Range, ticks and tick labels of one axis.
 
 use super::chart::Axis;
+use super::unit::plain_orders;
 use crate::table::significant;
+use std::ops::RangeInclusive;
 
-/// Numbers beyond this cannot be spread over an axis without overflow; they count as gaps.
-const LARGEST: f64 = 1.0e300;
+/// Numbers beyond this cannot be spread over an axis without overflow; they count as infinite.
+pub(super) const LARGEST: f64 = 1.0e300;
 
 /// Share of the span that is left free at each end of an automatic range.
-const PADDING: f64 = 0.04;
+pub(super) const PADDING: f64 = 0.04;
 
 /// An axis with a definite range, ready to place values.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +18,8 @@ pub(crate) struct Scale {
     low: f64,
     high: f64,
     logarithmic: bool,
+    /// Orders of magnitude that are shown without a common power of ten.
+    plain: RangeInclusive<i32>,
 }
 
 /// A place on the axis that is labelled.
@@ -30,13 +34,13 @@ pub(crate) struct Tick {
 impl Scale {
     /// The range that the axis fixes, or else the one that fits `values`.
     pub(crate) fn new(axis: &Axis, values: impl Iterator<Item = f64>) -> Self {
-        let logarithmic = axis.logarithmic;
+        let (logarithmic, plain) = (axis.logarithmic, plain_orders(&axis.label));
         let coordinate = |value: f64| coordinate(value, logarithmic);
         let fixed = axis.range.map(|range| range.map(coordinate));
         if let Some([Some(low), Some(high)]) = fixed
             && (high - low).abs() > 1.0e-300
         {
-            return Self { low, high, logarithmic };
+            return Self { low, high, logarithmic, plain };
         }
         let ends = values.filter_map(coordinate).fold(None, |ends: Option<(f64, f64)>, value| {
             Some(ends.map_or((value, value), |(low, high)| (low.min(value), high.max(value))))
@@ -58,7 +62,7 @@ impl Scale {
             };
             (middle - half, middle + half)
         };
-        Self { low, high, logarithmic }
+        Self { low, high, logarithmic, plain }
     }
 
     /// Place of a value: 0 at the low end, 1 at the high end; `None` for a gap.
@@ -71,7 +75,7 @@ impl Scale {
         let (low, high) = (self.low.min(self.high), self.low.max(self.high));
         if !self.logarithmic {
             let (values, step) = round_values(low, high, room);
-            let (values, exponent, decimals) = common_exponent(values, step);
+            let (values, exponent, decimals) = common_exponent(values, step, &self.plain);
             let unit = 10_f64.powi(-exponent);
             let label = |value: f64| clear_sign(format!("{:.decimals$}", value * unit));
             return (values.into_iter().filter_map(|v| self.tick(v, label(v))).collect(), exponent);
@@ -159,10 +163,10 @@ fn round_values(low: f64, high: f64, room: f64) -> (Vec<f64>, f64) {
 }
 
 /// Leaves out a common power of ten (in threes) where the plain labels would be long; also the decimals that remain.
-fn common_exponent(values: Vec<f64>, step: f64) -> (Vec<f64>, i32, usize) {
+fn common_exponent(values: Vec<f64>, step: f64, plain: &RangeInclusive<i32>) -> (Vec<f64>, i32, usize) {
     let largest = values.iter().fold(step, |largest, value| largest.max(value.abs()));
     let order = largest.log10().floor() as i32;
-    let exponent = if (-3..5).contains(&order) { 0 } else { 3 * order.div_euclid(3) };
+    let exponent = if plain.contains(&order) { 0 } else { 3 * order.div_euclid(3) };
     let decimals = -((step.log10() + 1.0e-6).floor() as i32 - exponent);
     (values, exponent, decimals.clamp(0, 12) as usize)
 }

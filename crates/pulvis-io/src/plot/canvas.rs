@@ -1,6 +1,7 @@
 //! Drawing in points, whatever the picture is made of.
 
 use super::geometry::Point;
+use super::text;
 use crate::{Colour, IoError, font};
 use plotters::coord::Shift;
 use plotters::prelude::{
@@ -46,11 +47,6 @@ pub(crate) enum Stroke {
     Filled,
 }
 
-/// The library's pixel fonts are larger than its SVG fonts of the same nominal size, and sit higher in their line, both in
-/// proportion to the size. Measured on figures drawn both ways.
-const RASTER_SIZE: f64 = 0.94;
-const RASTER_DROP: f64 = 0.13;
-
 /// A drawing area of the library, addressed in points of `scale` pixels each.
 pub(crate) struct Canvas<DB: DrawingBackend> {
     area: DrawingArea<DB, Shift>,
@@ -59,9 +55,8 @@ pub(crate) struct Canvas<DB: DrawingBackend> {
 }
 
 impl<DB: DrawingBackend> Canvas<DB> {
-    pub(crate) fn new(area: DrawingArea<DB, Shift>, scale: f64, stroke: Stroke) -> Result<Self, IoError> {
-        font::register()?;
-        Ok(Self { area, scale, stroke })
+    pub(crate) fn new(area: DrawingArea<DB, Shift>, scale: f64, stroke: Stroke) -> Self {
+        Self { area, scale, stroke }
     }
 
     /// A polyline `width` points wide.
@@ -106,10 +101,16 @@ impl<DB: DrawingBackend> Canvas<DB> {
         if text.trim().is_empty() {
             return Ok(());
         }
+        match self.stroke {
+            Stroke::Native => self.written(at, text, setting),
+            Stroke::Filled => self.rasterised(at, text, setting),
+        }
+    }
+
+    /// A text as the library writes it.
+    fn written(&self, at: Point, text: &str, setting: Setting) -> Result<(), IoError> {
         let turn = if setting.upwards { FontTransform::Rotate270 } else { FontTransform::None };
-        let raster = self.stroke == Stroke::Filled;
-        let size = if raster { RASTER_SIZE * setting.size } else { setting.size };
-        let font = (font::FAMILY, size * self.scale).into_font().transform(turn);
+        let font = (font::FAMILY, setting.size * self.scale).into_font().transform(turn);
         let along = match setting.along {
             Along::Start => HPos::Left,
             Along::Middle => HPos::Center,
@@ -122,9 +123,32 @@ impl<DB: DrawingBackend> Canvas<DB> {
         };
         let colour = opaque(setting.colour);
         let style = TextStyle::from(font).color(&colour).pos(Pos::new(along, across));
-        let drop = if raster { RASTER_DROP * size } else { 0.0 };
-        let at = if setting.upwards { (at.0 + drop, at.1) } else { (at.0, at.1 + drop) };
         self.area.draw_text(text, &style, self.pixel(at)).map_err(IoError::drawing)
+    }
+
+    /// A text pixel by pixel.
+    fn rasterised(&self, at: Point, text: &str, setting: Setting) -> Result<(), IoError> {
+        let em = setting.size * text::EM * self.scale;
+        let along = match setting.along {
+            Along::Start => 0.0,
+            Along::Middle => -0.5,
+            Along::End => -1.0,
+        };
+        let across = match setting.across {
+            Across::Top => text::BELOW_TOP,
+            Across::Middle => text::BELOW_MIDDLE,
+            Across::Bottom => -text::ABOVE_BOTTOM,
+        };
+        let (x, y) = self.pixel(at);
+        let colour = opaque(setting.colour);
+        let mut drawn = Ok(());
+        text::rasterise(text, em, (along * text::width(text, em), across * em), |right, down, share| {
+            let pixel = if setting.upwards { (x + down, y - right - 1) } else { (x + right, y + down) };
+            if share > 0.0 && drawn.is_ok() {
+                drawn = self.area.draw_pixel(pixel, &colour.mix(f64::from(share.min(1.0))));
+            }
+        })?;
+        drawn.map_err(IoError::drawing)
     }
 
     /// Completes the drawing, for formats that have an end.
@@ -139,13 +163,7 @@ impl<DB: DrawingBackend> Canvas<DB> {
 
 /// Width of a text \[pt\] in a font of the given height \[pt\].
 pub(crate) fn text_width(text: &str, size: f64) -> f64 {
-    // Measured large, since the library rounds to whole pixels.
-    const LARGE: f64 = 200.0;
-    if font::register().is_err() {
-        return 0.0;
-    }
-    let width = (font::FAMILY, LARGE).into_font().box_size(text).map_or(0, |(width, _)| width);
-    f64::from(width) * RASTER_SIZE * size / LARGE
+    text::width(text, size * text::EM)
 }
 
 fn opaque(colour: Colour) -> RGBAColor {

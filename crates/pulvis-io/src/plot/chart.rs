@@ -77,7 +77,10 @@ pub struct Chart {
     pub(super) y: Axis,
     pub(super) series: Vec<Series>,
     pub(super) markers: Vec<(f64, String)>,
+    /// Start and name of each section.
+    pub(super) sections: Vec<(f64, String)>,
     pub(super) zero_line: bool,
+    pub(super) robust_y: bool,
 }
 
 impl Chart {
@@ -146,6 +149,22 @@ impl Chart {
     #[must_use]
     pub fn zero_line(mut self) -> Self {
         self.zero_line = true;
+        self
+    }
+
+    /// Adds a section that begins at `x`, a stage of a run for example: a thin line where it begins, its name above the
+    /// frame where it fits. Give them in order.
+    #[must_use]
+    pub fn section(mut self, x: f64, name: impl Into<String>) -> Self {
+        self.sections.push((x, name.into()));
+        self
+    }
+
+    /// Lets the vertical range follow the bulk of the values where a few would stretch it to many times that; what lies
+    /// beyond is marked at the edge and told in a note. Has no effect on a fixed range.
+    #[must_use]
+    pub fn robust_y(mut self) -> Self {
+        self.robust_y = true;
         self
     }
 

@@ -1,33 +1,36 @@
 //! One panel: where its parts lie and how they are drawn.
 
-use super::axis::{Scale, Tick, power_of_ten};
+use super::axis::Scale;
+use super::bounds::vertical_scale;
 use super::canvas::{Across, Along, Canvas, Setting, text_width};
 use super::chart::{Chart, SeriesStyle};
 use super::geometry::{Point, Rectangle, dashes, visible_pieces};
-use super::{legend, placing};
+use super::{coincidence, labels, legend, placing, unlocated};
 use crate::{Colour, IoError};
 use plotters::prelude::DrawingBackend;
 
 /// Heights of the fonts \[pt\].
 pub(super) const TICK_FONT: f64 = 11.0;
-const LABEL_FONT: f64 = 12.5;
-const TITLE_FONT: f64 = 14.0;
+pub(super) const NOTE_FONT: f64 = 10.5;
+pub(super) const LABEL_FONT: f64 = 12.5;
+pub(super) const TITLE_FONT: f64 = 14.0;
 
 /// Widths of the lines \[pt\].
 pub(super) const CURVE: f64 = 1.7;
-const FRAME: f64 = 0.9;
-const GRID: f64 = 0.6;
+pub(super) const FRAME: f64 = 0.9;
 
-/// Lengths of ticks, which point inwards \[pt\].
-const TICK: f64 = 5.0;
-const MINOR_TICK: f64 = 2.5;
+/// Half the width, the height and the distance of the arrows that stand for values beyond an axis \[pt\].
+const ARROW: (f64, f64) = (4.0, 7.0);
+const ARROW_DISTANCE: f64 = 10.0;
+
+/// Rows of arrows, one a series.
+const ARROW_ROWS: u32 = 5;
 
 /// Dash and gap of dashed curves \[pt\].
 pub(super) const DASH: (f64, f64) = (6.0, 3.5);
 
-const INK: Colour = Colour::grey(0x22);
-const GRID_INK: Colour = Colour::grey(0xE4);
-const MARKER_INK: Colour = Colour::grey(0x66);
+pub(super) const INK: Colour = Colour::grey(0x22);
+pub(super) const MARKER_INK: Colour = Colour::grey(0x66);
 
 /// Axis coordinates beyond this many panel widths are drawn as if there, which keeps the arithmetic finite.
 const FAR: f64 = 1.0e6;
@@ -39,32 +42,35 @@ pub(super) struct Panel<'a> {
     pub(super) frame: Rectangle,
     /// Room at the right of the frame for a legend \[pt\].
     pub(super) room_right: f64,
-    x: Scale,
-    y: Scale,
+    pub(super) x: Scale,
+    pub(super) y: Scale,
+    /// What the panel cannot show.
+    pub(super) notes: Vec<String>,
+}
+
+/// An arrow at the edge, for a value beyond the axis.
+pub(super) struct Mark {
+    /// Number of the series.
+    pub(super) series: usize,
+    tip: Point,
+    upwards: bool,
+}
+
+impl Mark {
+    /// The tip and the two ends of the base.
+    pub(super) fn corners(&self) -> [Point; 3] {
+        let (x, y) = self.tip;
+        let base = if self.upwards { y + ARROW.1 } else { y - ARROW.1 };
+        [(x, y), (x + ARROW.0, base), (x - ARROW.0, base)]
+    }
 }
 
 /// Room that the labels of the vertical axis of a panel need \[pt\].
 pub(super) fn left_margin(chart: &Chart, height: f64) -> f64 {
-    let (ticks, _) = vertical_scale(chart).ticks(vertical_room(height - 60.0));
+    let (ticks, _) = vertical_scale(chart).ticks(labels::vertical_room(height - 60.0));
     let widest = ticks.iter().map(|tick| text_width(&tick.label, TICK_FONT)).fold(0.0, f64::max);
     let label = if chart.y.label.is_empty() { 0.0 } else { LABEL_FONT + 8.0 };
     10.0 + label + widest + 6.0
-}
-
-fn vertical_room(height: f64) -> f64 {
-    (height / 32.0).clamp(2.0, 9.0)
-}
-
-fn horizontal_room(width: f64) -> f64 {
-    (width / 75.0).clamp(2.0, 10.0)
-}
-
-fn vertical_scale(chart: &Chart) -> Scale {
-    let zero = chart.zero_line.then_some(0.0);
-    let values = chart.series.iter().flat_map(|series| &series.points);
-    // A value whose abscissa cannot be shown must not stretch the axis.
-    let shown = values.filter(|(x, _)| x.is_finite() && (!chart.x.logarithmic || *x > 0.0)).map(|&(_, y)| y);
-    Scale::new(&chart.y, shown.chain(zero))
 }
 
 impl<'a> Panel<'a> {
@@ -72,30 +78,41 @@ impl<'a> Panel<'a> {
     pub(super) fn new(chart: &'a Chart, outer: Rectangle, left: f64, room_right: f64) -> Self {
         let abscissas = chart.series.iter().flat_map(|series| &series.points).map(|&(x, _)| x);
         let x = Scale::new(&chart.x, abscissas.chain(chart.markers.iter().map(|&(x, _)| x)));
-        let title = if chart.title.is_empty() { 14.0 } else { 14.0 + TITLE_FONT + 6.0 };
+        let y = vertical_scale(chart);
+        let notes = unlocated::notes(chart, [&x, &y]);
         let label = if chart.x.label.is_empty() { 0.0 } else { LABEL_FONT + 6.0 };
         let frame = Rectangle {
             left: outer.left + left,
-            top: outer.top + title,
+            top: outer.top + labels::height_above(&chart.title, chart.sections.len(), notes.len()),
             right: outer.right - 20.0 - room_right,
             bottom: outer.bottom - label - TICK_FONT - 14.0,
         };
-        Self { chart, frame, room_right, x, y: vertical_scale(chart) }
+        Self { chart, frame, room_right, x, y, notes }
     }
 
     /// Draws everything, from the back to the front.
     pub(super) fn draw<DB: DrawingBackend>(&self, canvas: &Canvas<DB>) -> Result<(), IoError> {
-        let (across, x_exponent) = self.x.ticks(horizontal_room(self.frame.width()));
-        let (upwards, y_exponent) = self.y.ticks(vertical_room(self.frame.height()));
-        self.draw_grid(canvas, &across, &upwards)?;
+        let ticks = self.ticks();
+        let patterns = coincidence::patterns(self);
+        self.draw_grid(canvas, &ticks)?;
+        self.draw_sections(canvas)?;
         self.draw_zero_line(canvas)?;
         self.draw_markers(canvas)?;
-        for (number, colour) in self.chart.colours().into_iter().enumerate() {
-            self.draw_series(canvas, number, Colour::palette(colour), colour)?;
+        for (number, shape) in self.chart.colours().into_iter().enumerate() {
+            self.draw_series(canvas, number, shape, patterns[number])?;
         }
-        legend::draw(canvas, self)?;
-        self.draw_ticks(canvas, &across, &upwards)?;
-        self.draw_labels(canvas, x_exponent, y_exponent)
+        self.draw_marks(canvas)?;
+        legend::draw(canvas, self, &patterns)?;
+        self.draw_emptiness(canvas)?;
+        self.draw_ticks(canvas, &ticks)?;
+        self.draw_labels(canvas, &ticks)?;
+        self.draw_notes(canvas)
+    }
+
+    /// Whether no point of any series can be shown at its position.
+    pub(super) fn is_empty(&self) -> bool {
+        let mut points = self.chart.series.iter().flat_map(|series| &series.points);
+        !points.any(|&point| self.place(point).is_some())
     }
 
     /// Place of a data point in the picture, perhaps outside the frame; `None` for a gap.
@@ -125,24 +142,6 @@ impl<'a> Panel<'a> {
         })
     }
 
-    fn draw_grid<DB: DrawingBackend>(
-        &self,
-        canvas: &Canvas<DB>,
-        across: &[Tick],
-        upwards: &[Tick],
-    ) -> Result<(), IoError> {
-        let frame = self.frame;
-        for tick in across.iter().filter(|tick| !tick.label.is_empty()) {
-            let x = frame.left + tick.place * frame.width();
-            canvas.line(&[(x, frame.top), (x, frame.bottom)], GRID_INK, GRID)?;
-        }
-        for tick in upwards.iter().filter(|tick| !tick.label.is_empty()) {
-            let y = frame.bottom - tick.place * frame.height();
-            canvas.line(&[(frame.left, y), (frame.right, y)], GRID_INK, GRID)?;
-        }
-        Ok(())
-    }
-
     fn draw_zero_line<DB: DrawingBackend>(&self, canvas: &Canvas<DB>) -> Result<(), IoError> {
         let place = self.y.place(0.0).filter(|place| self.chart.zero_line && (0.0..=1.0).contains(place));
         place.map_or(Ok(()), |place| {
@@ -164,88 +163,70 @@ impl<'a> Panel<'a> {
         Ok(())
     }
 
+    /// Arrows for all values beyond an end of the vertical axis, those of one series in one row.
+    pub(super) fn marks(&self) -> Vec<Mark> {
+        let mut marks = Vec::new();
+        let mut rows = [0_u32; 2];
+        for (series, upwards) in
+            (0..self.chart.series.len()).flat_map(|series| [(series, true), (series, false)])
+        {
+            let points = self.chart.series[series].points.iter();
+            let beyond = points.filter(|&&point| {
+                let reason = unlocated::reason(self.chart, [&self.x, &self.y], point);
+                reason.and_then(unlocated::Reason::end) == Some(upwards)
+            });
+            let places = beyond.filter_map(|&(x, _)| self.x.place(x)).filter(|x| (0.0..=1.0).contains(x));
+            let offset = 2.0 + (ARROW.1 + 2.0) * f64::from(rows[usize::from(upwards)]);
+            let y = if upwards { self.frame.top + offset } else { self.frame.bottom - offset };
+            let mut last = f64::NEG_INFINITY;
+            let before = marks.len();
+            for x in places.map(|place| self.frame.left + place * self.frame.width()) {
+                if (x - last).abs() >= ARROW_DISTANCE {
+                    marks.push(Mark { series, tip: (x, y), upwards });
+                    last = x;
+                }
+            }
+            if marks.len() > before {
+                rows[usize::from(upwards)] = (rows[usize::from(upwards)] + 1) % ARROW_ROWS;
+            }
+        }
+        marks
+    }
+
+    fn draw_marks<DB: DrawingBackend>(&self, canvas: &Canvas<DB>) -> Result<(), IoError> {
+        let colours = self.chart.colours();
+        self.marks().iter().try_for_each(|mark| {
+            canvas.fill(&mark.corners(), Colour::palette(colours[mark.series]), 1.0)
+        })
+    }
+
     fn draw_series<DB: DrawingBackend>(
         &self,
         canvas: &Canvas<DB>,
         number: usize,
-        colour: Colour,
         shape: usize,
+        pattern: Option<(f64, f64)>,
     ) -> Result<(), IoError> {
-        match self.chart.series[number].style {
-            SeriesStyle::Line => {
-                self.pieces(number).iter().try_for_each(|piece| canvas.line(piece, colour, CURVE))
-            }
-            SeriesStyle::Dashed => {
-                let pieces = self.pieces(number).into_iter().flat_map(|piece| dashes(&piece, DASH.0, DASH.1));
-                pieces.into_iter().try_for_each(|dash| canvas.line(&dash, colour, CURVE))
-            }
-            SeriesStyle::Points => {
-                self.symbols(number).try_for_each(|at| draw_symbol(canvas, at, colour, shape))
-            }
+        let colour = Colour::palette(shape);
+        if self.chart.series[number].style == SeriesStyle::Points {
+            return self.symbols(number).try_for_each(|at| draw_symbol(canvas, at, colour, shape));
         }
+        self.pieces(number).iter().try_for_each(|piece| draw_line(canvas, piece, colour, pattern))
     }
+}
 
-    fn draw_ticks<DB: DrawingBackend>(
-        &self,
-        canvas: &Canvas<DB>,
-        across: &[Tick],
-        upwards: &[Tick],
-    ) -> Result<(), IoError> {
-        let Rectangle { left, top, right, bottom } = self.frame;
-        let setting = |along, across| Setting { size: TICK_FONT, colour: INK, along, across, upwards: false };
-        let length = |tick: &Tick| if tick.label.is_empty() { MINOR_TICK } else { TICK };
-        for tick in across {
-            let x = left + tick.place * self.frame.width();
-            canvas.line(&[(x, bottom), (x, bottom - length(tick))], INK, FRAME)?;
-            canvas.line(&[(x, top), (x, top + length(tick))], INK, FRAME)?;
-            canvas.text((x, bottom + 5.0), &tick.label, setting(Along::Middle, Across::Top))?;
+/// A curve, solid or in dashes.
+pub(super) fn draw_line<DB: DrawingBackend>(
+    canvas: &Canvas<DB>,
+    line: &[Point],
+    colour: Colour,
+    pattern: Option<(f64, f64)>,
+) -> Result<(), IoError> {
+    match pattern {
+        None => canvas.line(line, colour, CURVE),
+        Some((dash, gap)) => {
+            dashes(line, dash, gap).iter().try_for_each(|dash| canvas.line(dash, colour, CURVE))
         }
-        for tick in upwards {
-            let y = bottom - tick.place * self.frame.height();
-            canvas.line(&[(left, y), (left + length(tick), y)], INK, FRAME)?;
-            canvas.line(&[(right, y), (right - length(tick), y)], INK, FRAME)?;
-            canvas.text((left - 6.0, y), &tick.label, setting(Along::End, Across::Middle))?;
-        }
-        // Half a line beyond each corner, so that the corners are full.
-        let over = 0.5 * FRAME;
-        canvas.line(&[(left - over, bottom), (right + over, bottom)], INK, FRAME)?;
-        canvas.line(&[(left - over, top), (right + over, top)], INK, FRAME)?;
-        canvas.line(&[(left, top), (left, bottom)], INK, FRAME)?;
-        canvas.line(&[(right, top), (right, bottom)], INK, FRAME)
-    }
-
-    fn draw_labels<DB: DrawingBackend>(
-        &self,
-        canvas: &Canvas<DB>,
-        x_exponent: i32,
-        y_exponent: i32,
-    ) -> Result<(), IoError> {
-        let Rectangle { left, top, right, bottom } = self.frame;
-        let (middle, height) = (0.5 * (left + right), 0.5 * (top + bottom));
-        let setting = |size, along, across, upwards| Setting { size, colour: INK, along, across, upwards };
-        let factor = |exponent: i32| format!("×{}", power_of_ten(exponent));
-        let below = bottom + TICK_FONT + 10.0;
-        canvas.text(
-            (middle, below),
-            &self.chart.x.label,
-            setting(LABEL_FONT, Along::Middle, Across::Top, false),
-        )?;
-        canvas.text(
-            (8.0, height),
-            &self.chart.y.label,
-            setting(LABEL_FONT, Along::Middle, Across::Top, true),
-        )?;
-        let title = setting(TITLE_FONT, Along::Middle, Across::Bottom, false);
-        canvas.text((middle, top - 5.0), &self.chart.title, title)?;
-        if x_exponent != 0 {
-            let place = setting(TICK_FONT, Along::End, Across::Top, false);
-            canvas.text((right, below), &factor(x_exponent), place)?;
-        }
-        if y_exponent != 0 {
-            let place = setting(TICK_FONT, Along::Start, Across::Bottom, false);
-            canvas.text((left, top - 3.0), &factor(y_exponent), place)?;
-        }
-        Ok(())
     }
 }
 

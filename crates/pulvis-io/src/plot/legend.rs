@@ -2,8 +2,8 @@
 
 use super::canvas::{Across, Along, Canvas, Setting, text_width};
 use super::chart::SeriesStyle;
-use super::draw::{CURVE, DASH, Panel, TICK_FONT, draw_symbol};
-use super::geometry::{Point, Rectangle, dashes};
+use super::draw::{MARKER_INK, Panel, TICK_FONT, draw_line, draw_symbol};
+use super::geometry::{Point, Rectangle};
 use super::placing;
 use crate::{Colour, IoError};
 use plotters::prelude::DrawingBackend;
@@ -17,7 +17,7 @@ const PADDING: f64 = 6.0;
 const MARGIN: f64 = 9.0;
 
 /// So much of curves [places of `placing`] may lie below a legend before it moves out of the frame.
-const BEARABLE: usize = 4;
+const BEARABLE: usize = 0;
 
 /// Series with a label, and the size of the legend that shows them.
 struct Extent {
@@ -46,7 +46,11 @@ fn extent(panel: &Panel<'_>) -> Extent {
 }
 
 /// Draws the labels of all series that have one.
-pub(super) fn draw<DB: DrawingBackend>(canvas: &Canvas<DB>, panel: &Panel<'_>) -> Result<(), IoError> {
+pub(super) fn draw<DB: DrawingBackend>(
+    canvas: &Canvas<DB>,
+    panel: &Panel<'_>,
+    patterns: &[Option<(f64, f64)>],
+) -> Result<(), IoError> {
     let colours = panel.chart.colours();
     let extent = extent(panel);
     if extent.entries.is_empty() {
@@ -61,11 +65,17 @@ pub(super) fn draw<DB: DrawingBackend>(canvas: &Canvas<DB>, panel: &Panel<'_>) -
         inside
     };
     let Rectangle { left, top, right, bottom } = place;
-    canvas.fill(&[(left, top), (right, top), (right, bottom), (left, bottom)], Colour::WHITE, 0.85)?;
+    let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top), (right, top)];
+    canvas.fill(&corners[..4], Colour::WHITE, 1.0)?;
+    if !outside {
+        // A box that hides the grid has to look like one.
+        canvas.line(&corners, MARKER_INK, 0.5)?;
+    }
     for (row, &number) in extent.entries.iter().enumerate() {
         let y = top + 0.5 * PADDING + ROW * (row as f64 + 0.5);
         let start = left + PADDING;
-        draw_sample(canvas, panel.chart.series[number].style, (start, y), colours[number])?;
+        let style = panel.chart.series[number].style;
+        draw_sample(canvas, style, patterns[number], (start, y), colours[number])?;
         let (along, across) = (Along::Start, Across::Middle);
         let setting = Setting { size: TICK_FONT, colour: Colour::grey(0x22), along, across, upwards: false };
         canvas.text((start + SAMPLE + 6.0, y), &panel.chart.series[number].label, setting)?;
@@ -76,17 +86,14 @@ pub(super) fn draw<DB: DrawingBackend>(canvas: &Canvas<DB>, panel: &Panel<'_>) -
 fn draw_sample<DB: DrawingBackend>(
     canvas: &Canvas<DB>,
     style: SeriesStyle,
+    pattern: Option<(f64, f64)>,
     (x, y): Point,
     number: usize,
 ) -> Result<(), IoError> {
     let colour = Colour::palette(number);
-    let line = [(x, y), (x + SAMPLE, y)];
     match style {
-        SeriesStyle::Line => canvas.line(&line, colour, CURVE),
-        SeriesStyle::Dashed => {
-            dashes(&line, DASH.0, DASH.1).iter().try_for_each(|dash| canvas.line(dash, colour, CURVE))
-        }
         SeriesStyle::Points => draw_symbol(canvas, (x + 0.5 * SAMPLE, y), colour, number),
+        _ => draw_line(canvas, &[(x, y), (x + SAMPLE, y)], colour, pattern),
     }
 }
 

@@ -4,7 +4,10 @@
 //! from a palette that colour-blind readers can tell apart, and points of different series also differ in shape. Ranges
 //! follow the data, the legend takes the emptiest corner.
 //!
-//! Points that are not finite (or not positive on a logarithmic axis) are gaps in their line.
+//! Points that are not finite (or not positive on a logarithmic axis) are gaps in their line; infinities are marked by
+//! arrows at the edge, and notes above the panel tell what cannot be shown, of which curve, and from where on. A panel
+//! without a finite value says so. A curve that hides most of an earlier one is dashed. A power of ten that an axis leaves
+//! out becomes the prefix of its unit.
 //!
 //! ```
 //! use pulvis_io::plot::{Chart, Figure, Series};
@@ -29,14 +32,20 @@
 //! ```
 
 pub(crate) mod axis;
+mod bounds;
 pub(crate) mod canvas;
 mod chart;
+mod coincidence;
 mod draw;
 mod figure;
 mod geometry;
+mod labels;
 mod legend;
 mod placing;
 pub(crate) mod raster;
+mod text;
+pub(crate) mod unit;
+mod unlocated;
 mod vector;
 
 pub use chart::{Axis, Chart, Series, SeriesStyle};

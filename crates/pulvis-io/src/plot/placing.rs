@@ -2,7 +2,7 @@
 
 use super::canvas::text_width;
 use super::chart::SeriesStyle;
-use super::draw::{Panel, TICK_FONT};
+use super::draw::{Mark, Panel, TICK_FONT};
 use super::geometry::{Point, Rectangle, dashes};
 
 /// Distance of the places that stand for a curve \[pt\].
@@ -10,7 +10,7 @@ const STEP: f64 = 3.0;
 
 /// Points all along the curves of a panel, and its symbols (which weigh more than the line they hide).
 pub(super) fn occupied(panel: &Panel<'_>) -> Vec<Point> {
-    let mut places = Vec::new();
+    let mut places: Vec<Point> = panel.marks().iter().flat_map(Mark::corners).collect();
     for (number, series) in panel.chart.series.iter().enumerate() {
         if series.style == SeriesStyle::Points {
             places.extend(panel.symbols(number).flat_map(|symbol| [symbol; 3]));

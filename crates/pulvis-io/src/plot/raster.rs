@@ -3,9 +3,8 @@
 use super::canvas::{Canvas, Stroke};
 use super::figure::{Figure, PlotFormat};
 use crate::{IoError, file};
-use image::ImageEncoder;
-use image::codecs::png::PngEncoder;
 use plotters::prelude::{BitMapBackend, IntoDrawingArea};
+use png::{BitDepth, ColorType, Compression, Encoder, PixelDimensions, Unit};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -26,16 +25,26 @@ fn write(figure: &Figure, path: &Path) -> Result<(), IoError> {
     let mut large = vec![255_u8; 3 * wide as usize * high as usize];
     {
         let area = BitMapBackend::with_buffer(&mut large, (wide, high)).into_drawing_area();
-        figure.draw(&Canvas::new(area, f64::from(PIXELS_PER_POINT * OVERSAMPLING), Stroke::Filled)?)?;
+        figure.draw(&Canvas::new(area, f64::from(PIXELS_PER_POINT * OVERSAMPLING), Stroke::Filled))?;
     }
     let pixels = average(&large, wide as usize, OVERSAMPLING as usize);
     file::replace(path, |out| encode(out, &pixels, width, height))
 }
 
-/// Writes pixels (red, green, blue) as PNG.
+/// Pixels of the file per metre on paper: 144 to the inch, so that fonts come out in the sizes that were asked for.
+const PIXELS_PER_METRE: u32 = (PIXELS_PER_POINT as f64 * 72.0 / 0.0254 + 0.5) as u32;
+
+/// Writes pixels (red, green, blue) as PNG, with their size on paper.
 pub(crate) fn encode(out: &mut impl Write, pixels: &[u8], width: u32, height: u32) -> io::Result<()> {
-    let encoder = PngEncoder::new(out);
-    encoder.write_image(pixels, width, height, image::ExtendedColorType::Rgb8).map_err(io::Error::other)
+    let mut encoder = Encoder::new(out, width, height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(Compression::Fast);
+    let (xppu, yppu) = (PIXELS_PER_METRE, PIXELS_PER_METRE);
+    encoder.set_pixel_dims(Some(PixelDimensions { xppu, yppu, unit: Unit::Meter }));
+    let mut writer = encoder.write_header().map_err(io::Error::other)?;
+    writer.write_image_data(pixels).map_err(io::Error::other)?;
+    writer.finish().map_err(io::Error::other)
 }
 
 /// Averages squares of `times` by `times` pixels of an image `wide` pixels wide.

@@ -20,7 +20,7 @@ fn write(figure: &Figure, path: &Path) -> Result<(), IoError> {
     {
         let size = (width * UNITS_PER_POINT, height * UNITS_PER_POINT);
         let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        let canvas = Canvas::new(area, f64::from(UNITS_PER_POINT), Stroke::Native)?;
+        let canvas = Canvas::new(area, f64::from(UNITS_PER_POINT), Stroke::Native);
         figure.draw(&canvas)?;
         canvas.finish()?;
     }
