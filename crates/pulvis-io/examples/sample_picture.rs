@@ -42,6 +42,7 @@ fn draw(folder: &Path) -> Result<(), IoError> {
         title: "Heap",
         bar_label: "speed [m/s]",
         boxes: &[OutlineBox { low: [0.0; 3], high: [0.064, 0.05, 0.055] }],
+        scale_bar: true,
         ..SphereScene::new(&centres, &radii, &values)
     };
     let start = Instant::now();
@@ -61,5 +62,20 @@ fn draw(folder: &Path) -> Result<(), IoError> {
         height: 500,
         ..scene
     };
-    render_spheres(&folder.join("layer.png"), &few)
+    render_spheres(&folder.join("layer.png"), &few)?;
+    let (mut flown, classes) = (centres.clone(), [0.0, 1.0].repeat(centres.len() / 2 + 1));
+    flown.iter_mut().step_by(40).for_each(|centre| *centre = centre.map(|x| 1.0e6 * x));
+    flown.iter_mut().step_by(300).for_each(|centre| *centre = [f64::NAN; 3]);
+    let exploded = SphereScene {
+        centres: &flown,
+        values: &classes[..centres.len()],
+        classes: &["glass", "steel"],
+        title: "Exploded",
+        ..scene
+    };
+    render_spheres(&folder.join("exploded.png"), &exploded)?;
+    let far: Vec<[f64; 3]> = centres.iter().map(|centre| centre.map(|x| 1.0e6 * x)).collect();
+    render_spheres(&folder.join("far.png"), &SphereScene { centres: &far, boxes: &[], ..scene })?;
+    let one = SphereScene { centres: &[[0.0; 3]], radii: &[1.0e-3], values: &[0.0], boxes: &[], ..scene };
+    render_spheres(&folder.join("one.png"), &one)
 }

@@ -77,7 +77,7 @@ pub struct CollisionCase {
 }
 
 /// A collision experiment: one or more collisions that differ in one variable.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct CollisionScenario {
     /// What the author calls it.
     pub title: Option<String>,
@@ -89,6 +89,8 @@ pub struct CollisionScenario {
     pub time_after_sticking: f64,
     /// The collisions, in the order of the sweep.
     pub cases: Vec<CollisionCase>,
+    /// The file, where a parameter in it is swept.
+    document: Option<Document>,
 }
 
 impl CollisionScenario {
@@ -113,13 +115,30 @@ impl CollisionScenario {
         if let SweptVariable::Key { path, .. } = &scenario.variable {
             let base = std::mem::take(&mut scenario.cases);
             for value in base.iter().map(|case| case.value) {
-                let replaced = document.with_override(path, Replacement::Si(value))?;
-                let case = replaced.read(|root| walk(root, false))?.cases.into_iter().next();
-                scenario.cases.extend(case.map(|case| CollisionCase { value, ..case }));
+                scenario.cases.extend(case_at(document, path, value)?);
             }
+            scenario.document = Some(document.clone());
         }
         Ok(scenario)
     }
+
+    /// The collision at any value of a swept parameter, in SI; `None` where no parameter of the file is swept, or where
+    /// the file with this value would be refused.
+    pub fn case_at(&self, value: f64) -> Option<CollisionCase> {
+        match (&self.variable, &self.document) {
+            (SweptVariable::Key { path, .. }, Some(document)) => {
+                case_at(document, path, value).ok().flatten()
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The collision of the file with another value of the parameter at `path`.
+fn case_at(document: &Document, path: &str, value: f64) -> Result<Option<CollisionCase>, InputErrors> {
+    let replaced = document.with_override(path, Replacement::Si(value))?;
+    let case = replaced.read(|root| walk(root, false))?.cases.into_iter().next();
+    Ok(case.map(|case| CollisionCase { value, ..case }))
 }
 
 /// Walks the file. Where a parameter is swept, all cases are those of the file as it stands; each of
@@ -152,6 +171,7 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
         logarithmic: sweep.logarithmic,
         time_after_sticking: time_after_sticking?,
         cases: cases?,
+        document: None,
     })
 }
 

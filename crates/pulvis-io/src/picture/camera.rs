@@ -1,5 +1,6 @@
 //! From the scene to the picture: an orthographic projection that shows everything.
 
+use super::selection::Selection;
 use super::{OutlineBox, SphereScene, View, furniture};
 
 type Vector = [f64; 3];
@@ -11,6 +12,9 @@ pub(super) struct Projected {
     pub(super) y: f64,
     pub(super) depth: f64,
 }
+
+/// A sphere that would be smaller is drawn as a dot of this radius \[pixel\].
+const SMALLEST: f64 = 1.0;
 
 /// An orthographic projection.
 #[derive(Clone, Debug)]
@@ -26,8 +30,8 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// Fits all spheres and boxes into the part of the picture that title and colour bar leave free.
-    pub(super) fn fit(scene: &SphereScene<'_>) -> Self {
+    /// Fits the chosen spheres and all boxes into the part of the picture that the furniture leaves free.
+    pub(super) fn fit(scene: &SphereScene<'_>, selection: &Selection) -> Self {
         let [right, down, forward] = axes(scene.view);
         let mut camera = Self { right, down, forward, scale: 1.0, offset: [0.0; 2], depths: [0.0; 2] };
         let mut low = [f64::INFINITY; 3];
@@ -38,7 +42,7 @@ impl Camera {
                 high[axis] = high[axis].max(value + radius);
             }
         };
-        for (centre, radius) in visible(scene) {
+        for (_, centre, radius) in shown(scene, selection) {
             include(camera.project(centre), radius);
         }
         for corner in scene.boxes.iter().filter(|outline| outline.is_finite()).flat_map(OutlineBox::corners) {
@@ -47,13 +51,23 @@ impl Camera {
         if low[0] > high[0] {
             (low, high) = ([-1.0; 3], [1.0; 3]);
         }
-        let [left, top, width, height] = furniture::free_area(scene);
+        let [left, top, width, height] = furniture::free_area(scene, selection);
         let span = |axis: usize| (high[axis] - low[axis]).max(f64::MIN_POSITIVE);
         camera.scale = (width / span(0)).min(height / span(1)).clamp(1.0e-200, 1.0e200);
         let middle = |axis: usize| 0.5 * (low[axis] + high[axis]) * camera.scale;
         camera.offset = [left + 0.5 * width - middle(0), top + 0.5 * height - middle(1)];
         camera.depths = [low[2] * camera.scale, high[2] * camera.scale];
         camera
+    }
+
+    /// Radius of a sphere in the picture \[pixel\].
+    pub(super) fn radius(&self, radius: f64) -> f64 {
+        (radius * self.scale).max(SMALLEST)
+    }
+
+    /// Whether a sphere is drawn larger than it is.
+    pub(super) fn enlarges(&self, radius: f64) -> bool {
+        radius * self.scale < SMALLEST
     }
 
     /// A point of the scene in the picture.
@@ -66,19 +80,15 @@ impl Camera {
     }
 }
 
-/// Spheres that can be drawn: finite, positive, and small enough for the arithmetic.
-pub(super) fn visible<'a>(scene: &SphereScene<'a>) -> impl Iterator<Item = (Vector, f64)> + use<'a> {
-    scene
-        .centres
-        .iter()
-        .copied()
-        .zip(scene.radii.iter().copied())
-        .filter(|&(centre, radius)| can_be_drawn(centre, radius))
-}
-
-/// Whether a sphere is finite, positive, and small enough for the arithmetic.
-pub(super) fn can_be_drawn(centre: Vector, radius: f64) -> bool {
-    centre.iter().all(|x| x.abs() < 1.0e100) && radius > 0.0 && radius < 1.0e100
+/// Number, centre and radius of the spheres that are shown.
+pub(super) fn shown<'a>(
+    scene: &SphereScene<'a>,
+    selection: &'a Selection,
+) -> impl Iterator<Item = (usize, Vector, f64)> + use<'a> {
+    let spheres = scene.centres.iter().zip(scene.radii).zip(&selection.shown).enumerate();
+    spheres
+        .filter(|(_, (_, shown))| **shown)
+        .map(|(number, ((&centre, &radius), _))| (number, centre, radius))
 }
 
 impl OutlineBox {

@@ -1,6 +1,7 @@
 //! Which sphere or line each sample of the picture shows.
 
-use super::camera::{Camera, Projected, can_be_drawn};
+use super::camera::{Camera, Projected, shown};
+use super::selection::Selection;
 use super::{OutlineBox, SphereScene};
 
 /// Samples per pixel in each direction.
@@ -32,14 +33,10 @@ impl DepthBuffer {
         Self { width, height, depth: vec![f32::INFINITY; count], owner: vec![NOTHING; count] }
     }
 
-    /// Draws all spheres, the nearest first, so that most of the hidden ones cost one comparison per sample.
-    pub(super) fn draw_spheres(&mut self, scene: &SphereScene<'_>, camera: &Camera) {
-        let spheres = scene.centres.iter().zip(scene.radii).enumerate();
-        let drawable = spheres.filter(|(_, (centre, radius))| can_be_drawn(**centre, **radius));
-        let mut spheres: Vec<(u32, Projected, f64)> = drawable
-            .map(|(number, (&centre, &radius))| {
-                (number as u32, camera.project(centre), radius * camera.scale)
-            })
+    /// Draws the chosen spheres, the nearest first, so that most of the hidden ones cost one comparison per sample.
+    pub(super) fn draw_spheres(&mut self, scene: &SphereScene<'_>, selection: &Selection, camera: &Camera) {
+        let mut spheres: Vec<(u32, Projected, f64)> = shown(scene, selection)
+            .map(|(number, centre, radius)| (number as u32, camera.project(centre), camera.radius(radius)))
             .collect();
         spheres.sort_by(|a, b| (a.1.depth - a.2).total_cmp(&(b.1.depth - b.2)));
         for (number, centre, radius) in spheres {

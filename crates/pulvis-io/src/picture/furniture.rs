@@ -1,13 +1,15 @@
-//! Title and colour bar.
+//! What surrounds the spheres: title, colour bar, scale bar and notes.
 
-use super::SphereScene;
-use crate::plot::axis::Scale;
-use crate::plot::canvas::{Across, Along, Canvas, Setting, Stroke, text_width};
-use crate::plot::{Axis, raster, unit};
+use super::camera::Camera;
+use super::selection::Selection;
+use super::{SphereScene, bar};
+use crate::plot::canvas::{Across, Along, Canvas, Setting, Stroke};
+use crate::plot::{raster, unit};
 use crate::{Colour, IoError};
 use plotters::prelude::{BitMapBackend, IntoDrawingArea};
 
-const INK: Colour = Colour::grey(0x22);
+pub(super) const INK: Colour = Colour::grey(0x22);
+const NOTE_INK: Colour = Colour::new(0xA0, 0x10, 0x10);
 
 /// Drawn pixels per pixel of the picture, for smooth edges.
 const OVERSAMPLING: u32 = 3;
@@ -20,45 +22,92 @@ struct Layout {
     strip: [f64; 2],
     /// Height of the strip that holds the title.
     title: f64,
+    /// Height of the strip that holds notes and scale bar.
+    foot: f64,
 }
 
-fn layout(scene: &SphereScene<'_>) -> Layout {
+fn layout(scene: &SphereScene<'_>, notes: usize) -> Layout {
     let (width, height) = (f64::from(scene.width), f64::from(scene.height));
     let font = (0.024 * width.min(height)).max(9.0);
     let margin = 0.03 * width.min(height);
-    let strip = if scene.bar_label.is_empty() { 0.0 } else { (8.5 * font).min(0.4 * width).round() };
+    let strip = bar::width(scene, font).min(0.4 * width).round();
     let title = if scene.title.is_empty() { 0.0 } else { (2.4 * font).round() };
-    Layout { font, margin, strip: [width - strip, strip], title }
+    let scale_bar = if scene.scale_bar { 2.6 * font } else { 0.0 };
+    let foot = (scale_bar + 1.6 * font * notes as f64).min(0.4 * height).round();
+    Layout { font, margin, strip: [width - strip, strip], title, foot }
 }
 
 /// Left, top, width and height of the part of the picture left for the spheres \[pixel\].
-pub(super) fn free_area(scene: &SphereScene<'_>) -> [f64; 4] {
-    let Layout { margin, strip: [right, _], title, .. } = layout(scene);
-    let height = f64::from(scene.height) - title;
+pub(super) fn free_area(scene: &SphereScene<'_>, selection: &Selection) -> [f64; 4] {
+    let Layout { margin, strip: [right, _], title, foot, .. } = layout(scene, selection.notes(scene).len());
+    let height = f64::from(scene.height) - title - foot;
     [margin, title + margin, (right - 2.0 * margin).max(1.0), (height - 2.0 * margin).max(1.0)]
 }
 
-/// Draws title and colour bar over the margins of the picture.
-pub(super) fn draw(pixels: &mut [u8], scene: &SphereScene<'_>, range: [f64; 2]) -> Result<(), IoError> {
-    let Layout { title, strip: [_, strip], .. } = layout(scene);
+/// Draws everything over the margins of the picture.
+pub(super) fn draw(
+    pixels: &mut [u8],
+    scene: &SphereScene<'_>,
+    selection: &Selection,
+    camera: &Camera,
+    range: [f64; 2],
+) -> Result<(), IoError> {
+    let notes = selection.notes(scene);
+    let Layout { font, margin, title, foot, strip: [left, strip] } = layout(scene, notes.len());
+    let middle = 0.5 * left;
     if title > 0.0 {
-        let setting = |size| setting(size * 1.25, Along::Middle, Across::Middle, false);
-        overlay(pixels, scene, [0, 0, scene.width, title as u32], |canvas, layout| {
-            canvas.text(
-                (0.5 * f64::from(scene.width), 0.62 * layout.title),
-                scene.title,
-                setting(layout.font),
-            )
+        let setting = setting(1.25 * font, Along::Middle, Across::Middle, false);
+        overlay(pixels, scene, [0, 0, scene.width, title as u32], |canvas| {
+            canvas.text((0.5 * f64::from(scene.width), 0.62 * title), scene.title, setting)
         })?;
     }
     if strip > 0.0 {
-        let strip = (strip as u32).min(scene.width);
-        let area = [scene.width - strip, title as u32, strip, scene.height - title as u32];
-        overlay(pixels, scene, area, |canvas, layout| {
-            draw_bar(canvas, scene, range, layout.font, f64::from(scene.height) - layout.title)
+        let height = f64::from(scene.height) - title;
+        let area = [scene.width - strip as u32, title as u32, strip as u32, height as u32];
+        overlay(pixels, scene, area, |canvas| bar::draw(canvas, scene, range, font, height))?;
+    }
+    if foot > 0.0 {
+        overlay(pixels, scene, [0, scene.height - foot as u32, left as u32, foot as u32], |canvas| {
+            for (row, note) in notes.iter().enumerate() {
+                let setting =
+                    Setting { colour: NOTE_INK, ..setting(font, Along::Middle, Across::Middle, false) };
+                canvas.text((middle, 1.6 * font * (row as f64 + 0.5)), note, setting)?;
+            }
+            let shows_length = scene.scale_bar && selection.count() + scene.boxes.len() > 0;
+            if shows_length { draw_scale_bar(canvas, camera, font, [margin, left, foot]) } else { Ok(()) }
+        })?;
+    }
+    if selection.count() == 0 && scene.boxes.is_empty() {
+        let [x, y, width, height] = free_area(scene, selection).map(|length| length as u32);
+        overlay(pixels, scene, [x, y, width, height], |canvas| {
+            let setting = setting(1.25 * font, Along::Middle, Across::Middle, false);
+            canvas.text((0.5 * f64::from(width), 0.5 * f64::from(height)), "no particle to show", setting)
         })?;
     }
     Ok(())
+}
+
+/// A bar of a round length, at most a quarter of the picture, at the left of the foot.
+fn draw_scale_bar(
+    canvas: &Canvas<BitMapBackend<'_>>,
+    camera: &Camera,
+    font: f64,
+    [margin, width, foot]: [f64; 3],
+) -> Result<(), IoError> {
+    let most = 0.25 * width / camera.scale;
+    let power = 10_f64.powi(most.log10().floor() as i32);
+    let length = [5.0, 2.0, 1.0].map(|factor| factor * power).into_iter().find(|&length| length <= most);
+    let Some(length) = length else { return Ok(()) };
+    let (left, y) = (margin + font, foot - 0.8 * font);
+    let right = left + length * camera.scale;
+    for line in [[(left, y), (right, y)], [left; 2].map(|x| (x, y)), [right; 2].map(|x| (x, y))] {
+        let [from, to] = line;
+        let tick = if from == to { 0.3 * font } else { 0.0 };
+        canvas.line(&[(from.0, from.1 - tick), (to.0, to.1 + tick)], INK, 0.12 * font)?;
+    }
+    let label = unit::amount("length [m]", length);
+    let above = (0.5 * (left + right), y - 0.4 * font);
+    canvas.text(above, &label, setting(font, Along::Middle, Across::Bottom, false))
 }
 
 /// Draws into a white rectangle (left, top, width, height) of the picture, smoothed.
@@ -66,13 +115,13 @@ fn overlay(
     pixels: &mut [u8],
     scene: &SphereScene<'_>,
     [left, top, width, height]: [u32; 4],
-    draw: impl FnOnce(&Canvas<BitMapBackend<'_>>, &Layout) -> Result<(), IoError>,
+    draw: impl FnOnce(&Canvas<BitMapBackend<'_>>) -> Result<(), IoError>,
 ) -> Result<(), IoError> {
     let (wide, high) = (width * OVERSAMPLING, height * OVERSAMPLING);
     let mut large = vec![255_u8; 3 * wide as usize * high as usize];
     {
         let area = BitMapBackend::with_buffer(&mut large, (wide, high)).into_drawing_area();
-        draw(&Canvas::new(area, f64::from(OVERSAMPLING), Stroke::Filled), &layout(scene))?;
+        draw(&Canvas::new(area, f64::from(OVERSAMPLING), Stroke::Filled))?;
     }
     let small = raster::average(&large, wide as usize, OVERSAMPLING as usize);
     let row = 3 * scene.width as usize;
@@ -84,39 +133,6 @@ fn overlay(
     Ok(())
 }
 
-/// The bar in the middle half of the strip's height, with ticks and label.
-fn draw_bar(
-    canvas: &Canvas<BitMapBackend<'_>>,
-    scene: &SphereScene<'_>,
-    range: [f64; 2],
-    font: f64,
-    height: f64,
-) -> Result<(), IoError> {
-    let (left, right, top, bottom) = (0.6 * font, 1.8 * font, 0.2 * height, 0.8 * height);
-    let steps = 128;
-    for step in 0..steps {
-        let edge = |step: i32| bottom + (top - bottom) * f64::from(step) / f64::from(steps);
-        let (low, high) = (edge(step), edge(step + 1));
-        let colour = scene.colours.at((f64::from(step) + 0.5) / f64::from(steps));
-        canvas.fill(&[(left, low), (right, low), (right, high), (left, high)], colour, 1.0)?;
-    }
-    let frame = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top), (right, top)];
-    canvas.line(&frame, INK, 1.2)?;
-    let axis = Axis { range: Some(range), label: scene.bar_label.to_owned(), ..Axis::default() };
-    let (ticks, exponent) = Scale::new(&axis, std::iter::empty()).ticks(6.0);
-    let mut widest = 0.0_f64;
-    for tick in &ticks {
-        let y = bottom + (top - bottom) * tick.place;
-        canvas.line(&[(right, y), (right + 0.35 * font, y)], INK, 1.2)?;
-        let place = (right + 0.6 * font, y);
-        canvas.text(place, &tick.label, setting(font, Along::Start, Across::Middle, false))?;
-        widest = widest.max(text_width(&tick.label, font));
-    }
-    let label = unit::label(scene.bar_label, exponent);
-    let x = right + 0.6 * font + widest + 0.5 * font;
-    canvas.text((x, 0.5 * (top + bottom)), &label, setting(font, Along::Middle, Across::Top, true))
-}
-
-fn setting(size: f64, along: Along, across: Across, upwards: bool) -> Setting {
+pub(super) fn setting(size: f64, along: Along, across: Across, upwards: bool) -> Setting {
     Setting { size, colour: INK, along, across, upwards }
 }

@@ -3,6 +3,9 @@
 //! The view is orthographic, so that sizes can be compared everywhere in the picture. Light comes from above the viewer's
 //! left shoulder; crevices are darkened and what lies far away fades a little, which is what makes a packing readable.
 //!
+//! The view holds the boxes and the spheres near them, without boxes the bulk of the spheres; how many lie outside or have
+//! no finite position stands in a note on the picture.
+//!
 //! ```
 //! use pulvis_io::picture::{OutlineBox, SphereScene, View, render_spheres};
 //!
@@ -21,15 +24,18 @@
 //! # }
 //! ```
 
+mod bar;
 mod camera;
 mod depth;
 mod furniture;
+mod selection;
 mod shade;
 
 use crate::plot::raster;
-use crate::{ColourMap, IoError, file};
+use crate::{Colour, ColourMap, IoError, file};
 use camera::Camera;
 use depth::DepthBuffer;
+use selection::Selection;
 use std::path::Path;
 
 /// Where one looks from. Neither vector needs unit length.
@@ -64,12 +70,16 @@ pub struct OutlineBox {
 /// What to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct SphereScene<'a> {
-    /// Centre of each sphere \[m\]; spheres with a coordinate or radius that is not finite are left out.
+    /// Centre of each sphere \[m\]; spheres with a coordinate or radius that is not finite are left out and counted in a
+    /// note.
     pub centres: &'a [[f64; 3]],
     /// Radius of each sphere \[m\].
     pub radii: &'a [f64],
-    /// The quantity that gives each sphere its colour; not-a-number is grey.
+    /// The quantity that gives each sphere its colour; not-a-number is grey. With `classes`, the number of its class.
     pub values: &'a [f64],
+    /// Names of classes, of materials for example, each with a colour of its own in place of the colour bar; empty for a
+    /// quantity.
+    pub classes: &'a [&'a str],
     /// Ends of the colour bar; `None` takes the smallest and largest finite value.
     pub range: Option<[f64; 2]>,
     /// Colours of the range.
@@ -86,18 +96,21 @@ pub struct SphereScene<'a> {
     pub bar_label: &'a str,
     /// Boxes shown by their edges.
     pub boxes: &'a [OutlineBox],
+    /// Whether a bar shows a length in metres.
+    pub scale_bar: bool,
 }
 
 impl<'a> SphereScene<'a> {
     /// Smallest and largest side of a picture \[pixel\].
     const SIDES: [u32; 2] = [64, 8192];
 
-    /// Spheres seen obliquely, in viridis, 1200 x 900 pixels, without title, colour bar and boxes.
+    /// Spheres seen obliquely, in viridis, 1200 x 900 pixels, without title, colour bar, boxes and scale bar.
     pub fn new(centres: &'a [[f64; 3]], radii: &'a [f64], values: &'a [f64]) -> Self {
         Self {
             centres,
             radii,
             values,
+            classes: &[],
             range: None,
             colours: ColourMap::Viridis,
             view: View::OBLIQUE,
@@ -106,6 +119,7 @@ impl<'a> SphereScene<'a> {
             title: "",
             bar_label: "",
             boxes: &[],
+            scale_bar: false,
         }
     }
 
@@ -136,11 +150,19 @@ impl<'a> SphereScene<'a> {
             let ends = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| {
                 [low.min(value), high.max(value)]
             });
-            // A single value lies in the middle of the colours; no value at all needs some range for the bar.
-            let middle = if ends[0].is_finite() { ends[0] } else { 0.0 };
-            let half = if middle == 0.0 { 0.5 } else { 0.5 * middle.abs() };
-            if usable(&ends) { ends } else { [middle - half, middle + half] }
+            // A single value is shown against zero; no value at all needs some range for the bar.
+            let only = Some(ends[0]).filter(|value| value.is_finite() && *value != 0.0);
+            let from_zero = only.map_or([0.0, 1.0], |value| [value.min(0.0), value.max(0.0)]);
+            if usable(&ends) { ends } else { from_zero }
         })
+    }
+
+    /// Colour of a sphere with this value.
+    fn colour(&self, value: f64, range: [f64; 2]) -> Colour {
+        if self.classes.is_empty() || !value.is_finite() {
+            return self.colours.at((value - range[0]) / (range[1] - range[0]));
+        }
+        Colour::palette(value.max(0.0) as usize)
     }
 }
 
@@ -156,12 +178,17 @@ pub fn render_spheres(path: &Path, scene: &SphereScene<'_>) -> Result<(), IoErro
         return Err(IoError::UnknownFormat { what, given, known });
     }
     let range = scene.value_range();
-    let camera = Camera::fit(scene);
+    let mut selection = Selection::of(scene);
+    let camera = Camera::fit(scene, &selection);
+    let enlarged = camera::shown(scene, &selection).any(|(_, _, radius)| camera.enlarges(radius));
+    selection.enlarged = enlarged;
+    // The note on it takes room of its own.
+    let camera = Camera::fit(scene, &selection);
     let mut depth = DepthBuffer::new(scene.width, scene.height);
-    depth.draw_spheres(scene, &camera);
+    depth.draw_spheres(scene, &selection, &camera);
     depth.draw_boxes(scene, &camera);
-    let mut pixels = shade::shade(&depth, scene, &camera, range);
-    furniture::draw(&mut pixels, scene, range)?;
+    let mut pixels = shade::shade(&depth, scene, &selection, &camera, range);
+    furniture::draw(&mut pixels, scene, &selection, &camera, range)?;
     file::replace(path, |out| raster::encode(out, &pixels, scene.width, scene.height))
 }
 
@@ -221,7 +248,40 @@ mod tests {
             };
             let _ = pixels(&small);
             let _ = pixels(&SphereScene { centres: &[], radii: &[], values: &[], ..small });
+            let _ = pixels(&SphereScene { classes: &["a", "b"], scale_bar: true, width: 300, ..small });
         }
+    }
+
+    /// Pixels in the colour of notes.
+    fn note_pixels(scene: &SphereScene<'_>) -> usize {
+        let at = pixels(scene);
+        let all = (0..scene.height).flat_map(|y| (0..scene.width).map(move |x| (x, y)));
+        all.filter(|&(x, y)| at(x, y)[0] > at(x, y)[1].saturating_add(90)).count()
+    }
+
+    #[test]
+    fn an_exploded_packing_is_drawn_with_a_note_and_not_as_a_blank_sheet() {
+        let flown = |n: u32| [1.0e6 * f64::from(n % 7), 1.0e5 * f64::from(n), 0.0];
+        let centres: Vec<[f64; 3]> = (0..60).map(flown).collect();
+        let (radii, values) = (vec![1.0; 60], vec![0.0; 60]);
+        let scene = SphereScene { width: 300, height: 300, ..SphereScene::new(&centres, &radii, &values) };
+        let at = pixels(&scene);
+        let inked =
+            (0..200).flat_map(|y| (0..300).map(move |x| (x, y))).filter(|&(x, y)| at(x, y) != [255; 3]);
+        assert!(inked.count() > 60, "dots where the particles are");
+        assert!(note_pixels(&scene) > 50, "and a note that they are enlarged");
+        let nowhere = vec![[f64::NAN; 3]; 60];
+        assert!(note_pixels(&SphereScene { centres: &nowhere, ..scene }) > 50);
+        let sound: Vec<[f64; 3]> = (0..60).map(|n| [2.0 * f64::from(n), 0.0, 0.0]).collect();
+        assert_eq!(note_pixels(&SphereScene { centres: &sound, ..scene }), 0);
+    }
+
+    #[test]
+    fn one_value_is_shown_against_zero() {
+        for (value, expected) in [(0.0, [0.0, 1.0]), (3.0, [0.0, 3.0]), (-2.0, [-2.0, 0.0])] {
+            assert_eq!(SphereScene::new(&[[0.0; 3]], &[1.0], &[value]).value_range(), expected);
+        }
+        assert_eq!(SphereScene::new(&[], &[], &[]).value_range(), [0.0, 1.0]);
     }
 
     #[test]

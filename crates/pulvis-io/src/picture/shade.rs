@@ -1,8 +1,9 @@
 //! Light, crevices and distance.
 
 use super::SphereScene;
-use super::camera::Camera;
+use super::camera::{Camera, shown};
 use super::depth::{DepthBuffer, EDGE, NOTHING, SAMPLES};
+use super::selection::Selection;
 use crate::Colour;
 
 /// Direction to the lamp: left, above and before the picture (x right, y down, z towards the eye), unit length.
@@ -27,15 +28,12 @@ const PROBES: usize = 20;
 pub(super) fn shade(
     depth: &DepthBuffer,
     scene: &SphereScene<'_>,
+    selection: &Selection,
     camera: &Camera,
     range: [f64; 2],
 ) -> Vec<u8> {
-    let palette: Vec<Colour> = scene
-        .values
-        .iter()
-        .map(|value| scene.colours.at((value - range[0]) / (range[1] - range[0])))
-        .collect();
-    let light = Light { depth, scene, camera, palette, probes: probes(scene, camera) };
+    let palette: Vec<Colour> = scene.values.iter().map(|&value| scene.colour(value, range)).collect();
+    let light = Light { depth, scene, camera, palette, probes: probes(scene, selection, camera) };
     let (width, height) = (depth.width / SAMPLES, depth.height / SAMPLES);
     let mut pixels = Vec::with_capacity(3 * width * height);
     for row in 0..height {
@@ -71,8 +69,8 @@ struct Probes {
 }
 
 /// Probes reach about as far as a typical sphere, since that is the size of the crevices.
-fn probes(scene: &SphereScene<'_>, camera: &Camera) -> Probes {
-    let radii: Vec<f64> = super::camera::visible(scene).map(|(_, radius)| radius * camera.scale).collect();
+fn probes(scene: &SphereScene<'_>, selection: &Selection, camera: &Camera) -> Probes {
+    let radii: Vec<f64> = shown(scene, selection).map(|(_, _, radius)| camera.radius(radius)).collect();
     let mean = radii.iter().sum::<f64>() / radii.len().max(1) as f64;
     let reach = (1.2 * mean).clamp(2.0, 60.0);
     let offsets = std::array::from_fn(|number| {
@@ -121,7 +119,7 @@ impl Light<'_> {
         }
         let number = owner as usize;
         let centre = self.camera.project(self.scene.centres[number]);
-        let radius = self.scene.radii[number] * self.camera.scale;
+        let radius = self.camera.radius(self.scene.radii[number]);
         let samples = SAMPLES as f64;
         let nx = ((x as f64 + 0.5) / samples - centre.x) / radius;
         let ny = ((y as f64 + 0.5) / samples - centre.y) / radius;

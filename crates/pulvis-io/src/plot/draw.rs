@@ -195,9 +195,9 @@ impl<'a> Panel<'a> {
 
     fn draw_marks<DB: DrawingBackend>(&self, canvas: &Canvas<DB>) -> Result<(), IoError> {
         let colours = self.chart.colours();
-        self.marks().iter().try_for_each(|mark| {
-            canvas.fill(&mark.corners(), Colour::palette(colours[mark.series]), 1.0)
-        })
+        self.marks()
+            .iter()
+            .try_for_each(|mark| canvas.fill(&mark.corners(), Colour::palette(colours[mark.series]), 1.0))
     }
 
     fn draw_series<DB: DrawingBackend>(

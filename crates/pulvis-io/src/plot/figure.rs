@@ -183,6 +183,53 @@ mod tests {
         assert!(text.contains("a &lt; b &amp; c") && text.trim_end().ends_with("</svg>"));
     }
 
+    /// The SVG text of a chart over 0 to 99 µs.
+    fn svg(of: impl Fn(u32) -> f64) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("chart.svg");
+        let points = (0..100).map(|n| (1.0e-6 * f64::from(n), of(n)));
+        Chart::new("").x_label("time [s]").series(Series::line("", points)).write(&path).unwrap();
+        std::fs::read_to_string(path).unwrap()
+    }
+
+    /// Polylines in the colour of the first curve, and filled polygons in it.
+    fn curves_and_arrows(svg: &str) -> (usize, usize) {
+        let colour = svg.lines().filter(|line| line.contains("#0072B2"));
+        let count = |kind: &str| colour.clone().filter(|line| line.contains(kind)).count();
+        (count("<polyline"), count("<polygon"))
+    }
+
+    #[test]
+    fn a_gap_is_a_gap_with_a_note() {
+        let whole = svg(f64::from);
+        assert_eq!(curves_and_arrows(&whole), (1, 0));
+        assert!(!whole.contains("NaN"));
+        let gap = svg(|n| if (40..60).contains(&n) { f64::NAN } else { f64::from(n) });
+        assert_eq!(curves_and_arrows(&gap), (2, 0), "a curve on either side");
+        assert!(gap.contains("no value (NaN) from time = 40 µs to 59 µs"), "{gap}");
+    }
+
+    #[test]
+    fn infinities_are_arrows_at_the_edge_with_a_note() {
+        let svg = svg(|n| if n == 50 { f64::INFINITY } else { f64::from(n) });
+        assert_eq!(curves_and_arrows(&svg), (2, 1));
+        assert!(svg.contains("+∞ at time = 50 µs"), "{svg}");
+        let exploded = self::svg(|n| if n < 50 { f64::from(n) } else { f64::NEG_INFINITY });
+        let (curves, arrows) = curves_and_arrows(&exploded);
+        assert!(curves == 1 && arrows > 10, "a row of arrows: {arrows}");
+        assert!(exploded.contains("\u{2212}∞ from time = 50 µs on"), "{exploded}");
+    }
+
+    #[test]
+    fn a_panel_without_a_finite_value_says_so_and_has_no_invented_range() {
+        for value in [f64::NAN, f64::INFINITY] {
+            let svg = svg(|_| value);
+            assert!(svg.contains("no finite value to show"), "{svg}");
+            let texts: Vec<&str> = svg.lines().map(str::trim).collect();
+            assert!(!texts.contains(&"\u{2212}1.0") && !texts.contains(&"0.5"), "no vertical ticks: {svg}");
+        }
+    }
+
     #[test]
     fn other_endings_and_sizes_are_refused() {
         let error = Chart::new("").write(Path::new("chart.pdf")).unwrap_err();

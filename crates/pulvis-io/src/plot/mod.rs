@@ -50,3 +50,4 @@ mod vector;
 
 pub use chart::{Axis, Chart, Series, SeriesStyle};
 pub use figure::{FORMATS, Figure, PlotFormat};
+pub use unit::amount;

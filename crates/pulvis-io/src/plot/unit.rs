@@ -52,8 +52,8 @@ pub(super) fn quote(label: &str, value: f64) -> String {
     format!("{} = {}", if quantity.is_empty() { "x" } else { quantity }, amount(label, value))
 }
 
-/// A value on an axis with its unit: "3.2 µs".
-pub(crate) fn amount(label: &str, value: f64) -> String {
+/// A value with the unit of the label it belongs to, rounded: 3.2e-6 of "time \[s\]" is "3.2 µs".
+pub fn amount(label: &str, value: f64) -> String {
     let unit = split(label).1.filter(|unit| !matches!(*unit, "1" | "-")).unwrap_or("");
     let order = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
     let exponent = 3 * order.div_euclid(3);

@@ -96,8 +96,8 @@ fn axis_symbol(variable: &SweptVariable) -> &str {
 fn axis_label(variable: &SweptVariable) -> String {
     match variable {
         SweptVariable::Single | SweptVariable::Velocity => "relative velocity v [m/s]".to_owned(),
-        SweptVariable::Chi => "impact velocity χ = v/v_p0 [1]".to_owned(),
-        SweptVariable::Zeta => "impact velocity ζ = v/v_p [1]".to_owned(),
+        SweptVariable::Chi => "impact velocity χ = v/vₚ₀ [1]".to_owned(),
+        SweptVariable::Zeta => "impact velocity ζ = v/vₚ [1]".to_owned(),
         SweptVariable::Key { path, unit } => format!("{path} [{unit}]"),
     }
 }
@@ -122,17 +122,18 @@ fn restitution_chart(scenario: &CollisionScenario, points: &[SweepPoint]) -> Cha
     chart
 }
 
-/// The closed form between the points where the speed is swept, else at the points.
+/// The closed form from the first to the last value, evaluated at many values of its own: a straight line from point to
+/// point would be no theory.
 fn theory_line(scenario: &CollisionScenario, points: &[SweepPoint]) -> Vec<(f64, f64)> {
-    let restitution = |case: &CollisionCase| closed_form(case).map_or(f64::NAN, |theory| theory.restitution);
-    let ends = points.iter().fold(None, |ends: Option<(f64, f64)>, point| {
-        let value = point.case.value;
+    let values = points.iter().map(|point| point.case.value).filter(|value| value.is_finite());
+    let ends = values.fold(None, |ends: Option<(f64, f64)>, value| {
         Some(ends.map_or((value, value), |(low, high)| (low.min(value), high.max(value))))
     });
     let (Some((low, high)), Some(first)) = (ends, points.first()) else { return Vec::new() };
-    let Some(unit) = speed_unit(scenario, first) else {
-        let theory = |point: &SweepPoint| point.theory.map_or(f64::NAN, |theory| theory.restitution);
-        return points.iter().map(|point| (point.case.value, theory(point))).collect();
+    let unit = speed_unit(scenario, first);
+    let case = |value: f64| match &unit {
+        Some(unit) => Some(CollisionCase { velocity: unit.velocity(value), ..first.case.clone() }),
+        None => scenario.case_at(value),
     };
     let at = |number: u32| {
         let share = f64::from(number) / f64::from(LINE_POINTS);
@@ -141,8 +142,8 @@ fn theory_line(scenario: &CollisionScenario, points: &[SweepPoint]) -> Vec<(f64,
         } else {
             low + (high - low) * share
         };
-        let case = CollisionCase { velocity: unit.velocity(value), ..first.case.clone() };
-        (value, restitution(&case))
+        let theory = case(value).and_then(|case| closed_form(&case));
+        (value, theory.map_or(f64::NAN, |theory| theory.restitution))
     };
     (0..=LINE_POINTS).map(at).collect()
 }
@@ -224,4 +225,42 @@ fn energy_chart(label: &str, collision: &Collision) -> Chart {
         chart = chart.series(Series::line("attraction", curve(|sample| sample.potential_attraction)));
     }
     chart
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::panic)]
+    use super::super::sweep;
+    use super::*;
+    use pulvis_input::Document;
+
+    fn scenario(kc: &str) -> CollisionScenario {
+        let text = format!(
+            "[collision]\nbodies = \"wall\"\nradius = \"1.1 mm\"\ndensity = \"2000 kg/m^3\"\nvelocity = \"0.3 m/s\"\n\
+             [collision.sweep]\nvariable = \"contact.normal.kc\"\nvalues = {kc}\n\
+             [contact.normal]\nlaw = \"luding\"\nk1 = \"100 N/m\"\nkp = \"500 N/m\"\nkc = \"1 N/m\"\nphi_f = 0.05\n"
+        );
+        let document = Document::from_str("sweep.toml", &text).unwrap();
+        CollisionScenario::from_document(&document).unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    #[test]
+    fn the_theory_line_of_a_swept_parameter_is_theory_between_the_points_too() {
+        let few = scenario("[0, 20, 300]");
+        let line = theory_line(&few, &sweep(&few, false).unwrap());
+        assert_eq!(line.len(), LINE_POINTS as usize + 1);
+        let mut apart = 0.0_f64;
+        // What is integrated, not the closed form, says what is right between the points.
+        for number in [13, 30, 100, 200, 400] {
+            let (kc, theory) = line[number];
+            let between = scenario(&format!("[{kc:?}]"));
+            let computed = sweep(&between, false).unwrap()[0].collision.outcome.restitution;
+            // Next to sticking e² is good to round-off, and e to its root.
+            assert!((theory - computed).abs() < 1e-6, "kc = {kc}: theory {theory}, computed {computed}");
+            let [low, high] = if kc < 20.0 { [0, 40] } else { [40, 600] }.map(|end: usize| line[end]);
+            let chord = low.1 + (high.1 - low.1) * (kc - low.0) / (high.0 - low.0);
+            apart = apart.max((theory - chord).abs());
+        }
+        assert!(apart > 0.01, "no straight line from point to point: {apart} apart");
+    }
 }

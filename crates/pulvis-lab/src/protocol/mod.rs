@@ -9,6 +9,7 @@ mod folder;
 mod measure;
 mod pace;
 mod packed;
+mod packing_picture;
 mod particles;
 mod report;
 mod run;

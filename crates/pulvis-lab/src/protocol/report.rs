@@ -1,14 +1,14 @@
-//! Pictures of a run: energies, ledger, stress and strain, force over displacement, the particles.
+//! Pictures of a run: energies, ledger, stress and strain, force over displacement.
 
 use std::path::{Path, PathBuf};
 
 use pulvis_core::Simulation;
 use pulvis_input::scenario::Scenario;
 use pulvis_io::IoError;
-use pulvis_io::picture::{SphereScene, render_spheres};
 use pulvis_io::plot::{Chart, Figure, Series as Line};
 
 use super::measure::Measure;
+use super::packing_picture;
 
 /// The rows of a time series.
 pub(super) struct Series<'a> {
@@ -27,9 +27,28 @@ impl Series<'_> {
     fn over_time(&self, column: &str) -> Vec<(f64, f64)> {
         self.points("time", column, |_| true)
     }
+
+    /// A chart over time in which the stages are marked.
+    fn chart(&self, scenario: &Scenario, title: impl Into<String>) -> Chart {
+        let mut chart = Chart::new(title).x_label("time [s]");
+        let mut before = None;
+        for (time, stage) in self.points("time", "stage", |_| true) {
+            let number = stage as usize;
+            if before != Some(number)
+                && let Some(stage) = number.checked_sub(1).and_then(|index| scenario.stages.get(index))
+            {
+                chart = chart.section(time, &stage.name);
+            }
+            before = Some(number);
+        }
+        chart
+    }
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Axes along which walls move less have no curve of force over displacement [1].
+const LEAST_DISPLACEMENT: f64 = 1e-3;
 
 /// Draws everything that the run has data for; answers with the files.
 pub(super) fn draw(
@@ -45,26 +64,42 @@ pub(super) fn draw(
         drawn.push(path);
         Ok(())
     };
-    let title = scenario.title.clone().unwrap_or_default();
-    keep("energies.png", energies(&title, series))?;
-    if let Some(figure) = stresses(&title, series) {
+    keep("energies.png", energies(scenario, series))?;
+    if let Some(figure) = stresses(scenario, series) {
         keep("stress.png", figure)?;
     }
-    if let Some(figure) = force_displacement(scenario, &title, series) {
+    if let Some(figure) = force_displacement(scenario, series) {
         keep("force_displacement.png", figure)?;
     }
     let path = folder.join("particles.png");
-    picture(simulation, &path)?;
+    packing_picture::draw(scenario, simulation, &path)?;
     drawn.push(path);
     Ok(drawn)
 }
 
-fn energies(title: &str, series: &Series<'_>) -> Figure {
-    let mut held = Chart::new(format!("{title}: energy held")).x_label("time [s]").y_label("energy [J]");
-    for (label, column) in [("kinetic", "kinetic"), ("elastic", "elastic"), ("adhesive", "adhesive")] {
-        held = held.series(Line::line(label, series.over_time(column)));
+/// A figure with the title of the run, if it has one.
+fn figure(scenario: &Scenario) -> Figure {
+    scenario.title.as_ref().map_or_else(Figure::new, |title| Figure::new().title(title))
+}
+
+/// A curve over time if there is anything to see: NaN is.
+fn unless_zero(points: Vec<(f64, f64)>) -> Option<Vec<(f64, f64)>> {
+    points.iter().any(|(_, value)| *value != 0.0).then_some(points)
+}
+
+fn energies(scenario: &Scenario, series: &Series<'_>) -> Figure {
+    let mut stored = series.chart(scenario, "Energy stored").y_label("energy [J]").zero_line();
+    for column in ["kinetic", "elastic"] {
+        stored = stored.series(Line::line(column, series.over_time(column)));
     }
-    let mut lost = Chart::new("energy dissipated and work done").x_label("time [s]").y_label("energy [J]");
+    if let Some(points) = unless_zero(series.over_time("adhesive")) {
+        stored = stored.series(Line::line("adhesive", points));
+    }
+    if let Some(points) = unless_zero(since_start(series.over_time("gravity"))) {
+        stored = stored.series(Line::line("gravity, change since the start", points));
+    }
+    let mut dissipated =
+        series.chart(scenario, "Energy dissipated and work done").y_label("energy [J]").zero_line();
     let accounts = [
         ("plastic", "dissipated_plastic"),
         ("adhesive", "dissipated_adhesive"),
@@ -75,95 +110,70 @@ fn energies(title: &str, series: &Series<'_>) -> Figure {
         ("background", "dissipated_background"),
     ];
     for (label, column) in accounts {
-        let points = series.over_time(column);
-        if points.iter().any(|(_, energy)| *energy != 0.0) {
-            lost = lost.series(Line::line(label, points));
+        if let Some(points) = unless_zero(series.over_time(column)) {
+            dissipated = dissipated.series(Line::line(label, points));
         }
     }
     for (label, column) in [("work of walls", "work_walls"), ("work of servo", "work_servo")] {
-        let points = series.over_time(column);
-        if points.iter().any(|(_, energy)| *energy != 0.0) {
-            lost = lost.series(Line::dashed(label, points));
+        if let Some(points) = unless_zero(series.over_time(column)) {
+            dissipated = dissipated.series(Line::dashed(label, points));
         }
     }
-    let error = Chart::new("closing error of the ledger")
-        .x_label("time [s]")
+    let error = series
+        .chart(scenario, "Closing error of the ledger")
         .y_label("relative error [1]")
         .zero_line()
         .series(Line::line("", series.over_time("relative_error")));
-    Figure::new().panel(held).panel(lost).panel(error)
+    figure(scenario).panel(stored).panel(dissipated).panel(error)
 }
 
-fn stresses(title: &str, series: &Series<'_>) -> Option<Figure> {
-    let mut chart = Chart::new(format!("{title}: stress on walls"))
-        .x_label("time [s]")
-        .y_label("stress [Pa]")
-        .zero_line();
-    let mut strain = Chart::new("length of the sample").x_label("time [s]").y_label("length [m]");
+/// A potential has no zero of its own; its change has.
+fn since_start(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    let start = points.first().map_or(0.0, |(_, value)| *value);
+    points.into_iter().map(|(time, value)| (time, value - start)).collect()
+}
+
+fn stresses(scenario: &Scenario, series: &Series<'_>) -> Option<Figure> {
+    // A wall that stops or is taken away gives one value that would flatten all others.
+    let mut stress = series.chart(scenario, "Stress on walls").y_label("stress [Pa]").zero_line().robust_y();
+    let mut lengths = series.chart(scenario, "Length of the sample").y_label("length [m]");
     let mut any = false;
     for axis in AXES {
         let points = series.over_time(&format!("wall_stress_{axis}"));
         if points.iter().any(|(_, stress)| stress.is_finite()) {
             any = true;
-            chart = chart.series(Line::line(axis, points));
-            strain = strain.series(Line::line(axis, series.over_time(&format!("length_{axis}"))));
+            stress = stress.series(Line::line(axis, points));
+            lengths = lengths.series(Line::line(axis, series.over_time(&format!("length_{axis}"))));
         }
     }
-    any.then(|| Figure::new().panel(chart).panel(strain))
+    any.then(|| figure(scenario).panel(stress).panel(lengths))
 }
 
 /// Force over displacement along the axes that walls move along, one colour a stage, from the
 /// reference stage on.
-fn force_displacement(scenario: &Scenario, title: &str, series: &Series<'_>) -> Option<Figure> {
-    scenario.output.dimensionless?;
-    let first =
-        scenario.output.dimensionless.and_then(|scales| scales.reference_stage).map_or(1, |stage| stage + 2);
-    let mut figure = Figure::new();
+fn force_displacement(scenario: &Scenario, series: &Series<'_>) -> Option<Figure> {
+    let first = scenario.output.dimensionless?.reference_stage.map_or(1, |stage| stage + 2);
+    let mut figure = figure(scenario);
     let mut any = false;
     for axis in AXES {
         let (x, y) = (format!("D_{axis}"), format!("F_{axis}"));
         let moved = series.points(&x, &y, |stage| stage >= first);
         let finite = moved.iter().any(|(d, f)| d.is_finite() && f.is_finite());
-        let span = moved.iter().map(|(d, _)| *d).fold(0.0, |most: f64, d| most.max(d.abs()));
-        if !finite || span < 1e-3 {
+        if !finite || !moved.iter().any(|(d, _)| d.abs() >= LEAST_DISPLACEMENT) {
             continue;
         }
         any = true;
-        let mut chart = Chart::new(format!("{title}: force over displacement along {axis}"))
+        let mut chart = Chart::new(format!("Force over displacement along {axis}"))
             .x_label("displacement (L − L₀)/d₀ [1]")
-            .y_label("force F/(k_p d₀), compression positive [1]")
+            .y_label("force F/(kₚ d₀), compression positive [1]")
             .zero_line();
-        for number in first..=scenario.stages.len() {
+        for (number, stage) in (1..).zip(&scenario.stages).skip(first - 1) {
             let points = series.points(&x, &y, |stage| stage == number);
-            let finite: Vec<_> = points.into_iter().filter(|(d, f)| d.is_finite() && f.is_finite()).collect();
-            if finite.len() > 1 {
-                chart = chart.series(Line::line(scenario.stages[number - 1].name.clone(), finite));
+            if points.len() > 1 {
+                chart = chart.series(Line::line(&stage.name, points));
             }
         }
         figure = figure.panel(chart);
     }
     any.then_some(figure)
-}
-
-/// The particles as they are at the end, coloured by the number of their contacts.
-fn picture(simulation: &Simulation, path: &Path) -> Result<(), IoError> {
-    use pulvis_core::ContactPartner;
-    let particles = simulation.particles();
-    let rows = particles.rows_by_id();
-    let centres: Vec<[f64; 3]> = rows.iter().map(|&row| particles.positions()[row].to_array()).collect();
-    let radii: Vec<f64> = rows.iter().map(|&row| particles.radii()[row]).collect();
-    let mut contacts = vec![0.0; rows.len()];
-    simulation.for_each_contact(&mut |contact| {
-        if contact.overlap > 0.0 {
-            contacts[contact.first as usize] += 1.0;
-            if let ContactPartner::Particle(id) = contact.second {
-                contacts[id as usize] += 1.0;
-            }
-        }
-    });
-    let scene = SphereScene {
-        bar_label: "contacts of each particle",
-        ..SphereScene::new(&centres, &radii, &contacts)
-    };
-    render_spheres(path, &scene)
 }

@@ -1,0 +1,163 @@
+//! Which spheres a picture shows, and what it says of the others.
+
+use super::SphereScene;
+
+/// Without a box, spheres farther from the middle than this many times the distance within which most lie are outside.
+const FAR: f64 = 5.0;
+
+/// The share of the spheres that counts as most.
+const MOST: f64 = 0.9;
+
+/// Spheres this share of the box' longest side beyond its faces are still in the view.
+const AROUND_BOX: f64 = 0.5;
+
+/// The spheres of a scene that the view takes in.
+#[derive(Clone, Debug)]
+pub(super) struct Selection {
+    /// Of each sphere, whether it is shown.
+    pub(super) shown: Vec<bool>,
+    /// How many could be shown, but are too far away.
+    outside: usize,
+    /// How many have no finite position or no positive, finite radius.
+    unlocated: usize,
+    /// Whether spheres that would be too small to see are drawn as dots.
+    pub(super) enlarged: bool,
+}
+
+impl Selection {
+    /// The view holds the boxes and the spheres near them; without boxes, the bulk of the spheres.
+    pub(super) fn of(scene: &SphereScene<'_>) -> Self {
+        let drawable: Vec<bool> = scene
+            .centres
+            .iter()
+            .zip(scene.radii)
+            .map(|(&centre, &radius)| can_be_drawn(centre, radius))
+            .collect();
+        let limits = box_limits(scene).or_else(|| bulk_limits(scene, &drawable));
+        let inside = |centre: &[f64; 3]| {
+            limits
+                .is_none_or(|[low, high]| (0..3).all(|axis| (low[axis]..=high[axis]).contains(&centre[axis])))
+        };
+        let shown: Vec<bool> = scene
+            .centres
+            .iter()
+            .zip(&drawable)
+            .map(|(centre, &drawable)| drawable && inside(centre))
+            .collect();
+        let count = |flags: &[bool]| flags.iter().filter(|flag| **flag).count();
+        let outside = count(&drawable) - count(&shown);
+        Self { outside, unlocated: drawable.len() - count(&drawable), shown, enlarged: false }
+    }
+
+    /// Number of the spheres that are shown.
+    pub(super) fn count(&self) -> usize {
+        self.shown.iter().filter(|shown| **shown).count()
+    }
+
+    /// Notes on what the picture does not show, one a line.
+    pub(super) fn notes(&self, scene: &SphereScene<'_>) -> Vec<String> {
+        let all = self.shown.len();
+        let colourless =
+            scene.values.iter().zip(&self.shown).filter(|(value, shown)| **shown && !value.is_finite());
+        let of_all =
+            |count: usize, text: &str| (count > 0).then(|| format!("{count} of {all} particles {text}"));
+        let notes = [
+            of_all(self.outside, "lie outside the view"),
+            of_all(self.unlocated, "have no finite position or radius and are not shown"),
+            of_all(colourless.count(), "have no finite value to colour them by"),
+            self.enlarged.then(|| "particles are drawn larger than they are, as dots".to_owned()),
+        ];
+        notes.into_iter().flatten().collect()
+    }
+}
+
+/// Whether a sphere is finite, positive, and small enough for the arithmetic.
+fn can_be_drawn(centre: [f64; 3], radius: f64) -> bool {
+    centre.iter().all(|x| x.abs() < 1.0e100) && radius > 0.0 && radius < 1.0e100
+}
+
+/// Limits around all boxes.
+fn box_limits(scene: &SphereScene<'_>) -> Option<[[f64; 3]; 2]> {
+    let boxes = scene.boxes.iter().filter(|outline| outline.is_finite());
+    let (low, high) = boxes.fold(None, |ends: Option<([f64; 3], [f64; 3])>, outline| {
+        let (low, high) = ends.unwrap_or((outline.low, outline.high));
+        let each = |of: fn(f64, f64) -> f64, a: [f64; 3], b: [f64; 3]| {
+            std::array::from_fn(|axis| of(a[axis], b[axis]))
+        };
+        Some((each(f64::min, low, outline.low), each(f64::max, high, outline.high)))
+    })?;
+    let longest = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
+    let margin = AROUND_BOX * longest;
+    Some([low.map(|x| x - margin), high.map(|x| x + margin)])
+}
+
+/// Limits around the bulk of the spheres.
+fn bulk_limits(scene: &SphereScene<'_>, drawable: &[bool]) -> Option<[[f64; 3]; 2]> {
+    let chosen = || (0..drawable.len()).filter(|&number| drawable[number]);
+    let radius = quantile(chosen().map(|number| scene.radii[number]), 0.5)?;
+    let mut limits = [[0.0; 3]; 2];
+    for axis in 0..3 {
+        let coordinates = || chosen().map(|number| scene.centres[number][axis]);
+        let middle = quantile(coordinates(), 0.5)?;
+        let most = quantile(coordinates().map(|x| (x - middle).abs()), MOST)?;
+        let distance = FAR * (most + radius);
+        limits[0][axis] = middle - distance;
+        limits[1][axis] = middle + distance;
+    }
+    Some(limits)
+}
+
+fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    let number = (share * values.len() as f64).floor() as usize;
+    values.get(number.min(values.len().saturating_sub(1))).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::OutlineBox;
+
+    fn grid(count: u32) -> Vec<[f64; 3]> {
+        (0..count).map(|n| [n % 5, n / 5 % 5, n / 25].map(f64::from)).collect()
+    }
+
+    #[test]
+    fn what_flew_away_or_has_no_position_is_counted_and_the_rest_fills_the_view() {
+        let mut centres = grid(100);
+        centres[3] = [1.0e6, 0.0, 0.0];
+        centres[50][2] = f64::NAN;
+        centres[51][0] = f64::INFINITY;
+        let (radii, values) = (vec![0.5; 100], vec![0.0; 100]);
+        let scene = SphereScene::new(&centres, &radii, &values);
+        let selection = Selection::of(&scene);
+        assert_eq!(selection.count(), 97);
+        let expected = [
+            "1 of 100 particles lie outside the view",
+            "2 of 100 particles have no finite position or radius and are not shown",
+        ];
+        assert_eq!(selection.notes(&scene), expected);
+    }
+
+    #[test]
+    fn with_a_box_the_view_is_the_box_even_if_all_have_left_it() {
+        let centres: Vec<[f64; 3]> =
+            grid(100).iter().map(|centre| centre.map(|x| 1.0e6 * (x + 1.0))).collect();
+        let (radii, values) = (vec![0.5; 100], vec![0.0; 100]);
+        let boxes = [OutlineBox { low: [0.0; 3], high: [4.0; 3] }];
+        let scene = SphereScene { boxes: &boxes, ..SphereScene::new(&centres, &radii, &values) };
+        let selection = Selection::of(&scene);
+        assert_eq!(selection.count(), 0);
+        assert_eq!(selection.notes(&scene), ["100 of 100 particles lie outside the view"]);
+    }
+
+    #[test]
+    fn a_sound_packing_has_no_notes() {
+        let centres = grid(100);
+        let (radii, values) = (vec![0.5; 100], vec![0.0; 100]);
+        let scene = SphereScene::new(&centres, &radii, &values);
+        let selection = Selection::of(&scene);
+        assert_eq!((selection.count(), selection.notes(&scene).len()), (100, 0));
+    }
+}

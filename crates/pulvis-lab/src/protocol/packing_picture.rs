@@ -1,0 +1,112 @@
+//! The particles as they are at the end of a run.
+
+use std::path::Path;
+
+use pulvis_core::{ContactPartner, Simulation};
+use pulvis_input::scenario::Scenario;
+use pulvis_io::IoError;
+use pulvis_io::picture::{OutlineBox, SphereScene, render_spheres};
+
+use super::setup::box_walls;
+
+/// A box that has grown to more than this many times its first size has been blown apart by what it should hold.
+const BLOWN_APART: f64 = 20.0;
+
+/// Draws the particles with the box, coloured by material where there are several, else by the number of their contacts.
+pub(super) fn draw(scenario: &Scenario, simulation: &Simulation, path: &Path) -> Result<(), IoError> {
+    let particles = simulation.particles();
+    let rows = particles.rows_by_id();
+    let centres: Vec<[f64; 3]> = rows.iter().map(|&row| particles.positions()[row].to_array()).collect();
+    let radii: Vec<f64> = rows.iter().map(|&row| particles.radii()[row]).collect();
+    let mut materials: Vec<usize> = particles.materials().iter().map(|&material| material as usize).collect();
+    materials.sort_unstable();
+    materials.dedup();
+    let names: Vec<&str> = materials
+        .iter()
+        .filter_map(|&material| scenario.materials.get(material))
+        .map(|m| m.name.as_str())
+        .collect();
+    let class = |row: usize| {
+        let material = particles.materials()[row] as usize;
+        materials.iter().position(|&known| known == material).map_or(f64::NAN, |number| number as f64)
+    };
+    let mixture = materials.len() > 1 && names.len() == materials.len();
+    let values: Vec<f64> = if mixture {
+        rows.iter().map(|&row| class(row)).collect()
+    } else {
+        contacts_of_each(simulation, rows.len())
+    };
+    let instant = format!("t = {}", pulvis_io::plot::amount("time [s]", simulation.time()));
+    let title =
+        scenario.title.as_ref().map_or_else(|| instant.clone(), |title| format!("{title}, {instant}"));
+    let boxes = outlines(scenario, simulation, &centres);
+    let scene = SphereScene {
+        title: &title,
+        bar_label: if mixture { "" } else { "contacts of each particle" },
+        classes: if mixture { &names } else { &[] },
+        boxes: &boxes,
+        scale_bar: true,
+        ..SphereScene::new(&centres, &radii, &values)
+    };
+    render_spheres(path, &scene)
+}
+
+/// Touching contacts of each particle, walls included.
+fn contacts_of_each(simulation: &Simulation, count: usize) -> Vec<f64> {
+    let mut contacts = vec![0.0; count];
+    simulation.for_each_contact(&mut |contact| {
+        if contact.overlap > 0.0 {
+            contacts[contact.first as usize] += 1.0;
+            if let ContactPartner::Particle(id) = contact.second {
+                contacts[id as usize] += 1.0;
+            }
+        }
+    });
+    contacts
+}
+
+/// The box as far as it is there: whole, or the walls that are left. Where it has been blown apart, the box of the start.
+fn outlines(scenario: &Scenario, simulation: &Simulation, centres: &[[f64; 3]]) -> Vec<OutlineBox> {
+    let faces: [[Option<f64>; 2]; 3] = std::array::from_fn(|axis| faces(scenario, simulation, axis));
+    let start = scenario.enclosure;
+    let whole = |axis: usize| faces[axis][0].zip(faces[axis][1]);
+    if let (Some(x), Some(y), Some(z)) = (whole(0), whole(1), whole(2)) {
+        let sound = |axis: usize, (low, high): (f64, f64)| {
+            let first = start.map_or(high - low, |start| start.size()[axis]);
+            (high - low).abs() <= BLOWN_APART * first && low.is_finite() && high.is_finite()
+        };
+        if sound(0, x) && sound(1, y) && sound(2, z) {
+            return vec![OutlineBox { low: [x.0, y.0, z.0], high: [x.1, y.1, z.1] }];
+        }
+        let first =
+            start.map(|start| OutlineBox { low: start.lower.to_array(), high: start.upper.to_array() });
+        return first.into_iter().collect();
+    }
+    // Across a single wall its edges lie where the particles end.
+    let ends: [[f64; 2]; 3] = std::array::from_fn(|axis| {
+        let coordinates = centres.iter().map(|centre| centre[axis]);
+        let [low, high] =
+            coordinates.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+        [faces[axis][0].unwrap_or(low), faces[axis][1].unwrap_or(high)]
+    });
+    let walls = (0..3).flat_map(|axis| faces[axis].into_iter().flatten().map(move |at| (axis, at)));
+    walls
+        .map(|(axis, at)| {
+            let mut outline = OutlineBox { low: ends.map(|end| end[0]), high: ends.map(|end| end[1]) };
+            (outline.low[axis], outline.high[axis]) = (at, at);
+            outline
+        })
+        .collect()
+}
+
+/// Lower and upper end of the box along an axis, as far as they are there [m].
+fn faces(scenario: &Scenario, simulation: &Simulation, axis: usize) -> [Option<f64>; 2] {
+    let domain = simulation.domain();
+    if domain.period(axis).is_some() {
+        return [Some(domain.lower()[axis]), Some(domain.upper()[axis])];
+    }
+    box_walls(scenario, axis).map(|index| {
+        let wall = simulation.walls().get(index?)?;
+        wall.present.then(|| wall.point[axis])
+    })
+}
