@@ -2,7 +2,7 @@
 
 use super::camera::Camera;
 use super::selection::Selection;
-use super::{SphereScene, bar};
+use super::{OutlineBox, SphereScene, bar};
 use crate::plot::canvas::{Across, Along, Canvas, Setting, Stroke};
 use crate::plot::{raster, unit};
 use crate::{Colour, IoError};
@@ -61,7 +61,8 @@ pub(super) fn draw(
             canvas.text((0.5 * f64::from(scene.width), 0.62 * title), scene.title, setting)
         })?;
     }
-    if strip > 0.0 {
+    let anything = selection.count() > 0 || scene.boxes.iter().any(OutlineBox::is_finite);
+    if strip > 0.0 && selection.count() > 0 {
         let height = f64::from(scene.height) - title;
         let area = [scene.width - strip as u32, title as u32, strip as u32, height as u32];
         overlay(pixels, scene, area, |canvas| bar::draw(canvas, scene, range, font, height))?;
@@ -73,11 +74,10 @@ pub(super) fn draw(
                     Setting { colour: NOTE_INK, ..setting(font, Along::Middle, Across::Middle, false) };
                 canvas.text((middle, 1.6 * font * (row as f64 + 0.5)), note, setting)?;
             }
-            let shows_length = scene.scale_bar && selection.count() + scene.boxes.len() > 0;
-            if shows_length { draw_scale_bar(canvas, camera, font, [margin, left, foot]) } else { Ok(()) }
+            if scene.scale_bar && anything { draw_scale_bar(canvas, camera, font, [margin, left, foot]) } else { Ok(()) }
         })?;
     }
-    if selection.count() == 0 && scene.boxes.is_empty() {
+    if !anything {
         let [x, y, width, height] = free_area(scene, selection).map(|length| length as u32);
         overlay(pixels, scene, [x, y, width, height], |canvas| {
             let setting = setting(1.25 * font, Along::Middle, Across::Middle, false);

@@ -19,6 +19,9 @@ pub(super) const TITLE_FONT: f64 = 14.0;
 pub(super) const CURVE: f64 = 1.7;
 pub(super) const FRAME: f64 = 0.9;
 
+/// Radius of a point of a curve that has gaps on both sides \[pt\].
+const LONE: f64 = 2.0;
+
 /// Half the width, the height and the distance of the arrows that stand for values beyond an axis \[pt\].
 const ARROW: (f64, f64) = (4.0, 7.0);
 const ARROW_DISTANCE: f64 = 10.0;
@@ -93,26 +96,26 @@ impl<'a> Panel<'a> {
     /// Draws everything, from the back to the front.
     pub(super) fn draw<DB: DrawingBackend>(&self, canvas: &Canvas<DB>) -> Result<(), IoError> {
         let ticks = self.ticks();
-        let patterns = coincidence::patterns(self);
+        let strokes = coincidence::strokes(self);
         self.draw_grid(canvas, &ticks)?;
         self.draw_sections(canvas)?;
         self.draw_zero_line(canvas)?;
         self.draw_markers(canvas)?;
         for (number, shape) in self.chart.colours().into_iter().enumerate() {
-            self.draw_series(canvas, number, shape, patterns[number])?;
+            self.draw_series(canvas, number, shape, &strokes[number])?;
         }
         self.draw_marks(canvas)?;
-        legend::draw(canvas, self, &patterns)?;
+        legend::draw(canvas, self)?;
         self.draw_emptiness(canvas)?;
         self.draw_ticks(canvas, &ticks)?;
         self.draw_labels(canvas, &ticks)?;
         self.draw_notes(canvas)
     }
 
-    /// Whether no point of any series can be shown at its position.
-    pub(super) fn is_empty(&self) -> bool {
-        let mut points = self.chart.series.iter().flat_map(|series| &series.points);
-        !points.any(|&point| self.place(point).is_some())
+    /// How many points of all series can be shown at their positions, and how many there are.
+    pub(super) fn located(&self) -> [usize; 2] {
+        let points = || self.chart.series.iter().flat_map(|series| &series.points);
+        [points().filter(|&&point| self.place(point).is_some()).count(), points().count()]
     }
 
     /// Place of a data point in the picture, perhaps outside the frame; `None` for a gap.
@@ -131,6 +134,16 @@ impl<'a> Panel<'a> {
     pub(super) fn symbols(&self, number: usize) -> impl Iterator<Item = Point> {
         let points = self.chart.series[number].points.iter();
         points.filter_map(|&point| self.place(point)).filter(|&point| self.frame.contains(point))
+    }
+
+    /// The points inside the frame that no line shows, since there are gaps on both sides.
+    fn lone_points(&self, number: usize) -> impl Iterator<Item = Point> {
+        let points = &self.chart.series[number].points;
+        let at = |index: usize| points.get(index).and_then(|&point| self.place(point));
+        let alone = move |index: &usize| {
+            index.checked_sub(1).and_then(at).is_none() && at(index + 1).is_none()
+        };
+        (0..points.len()).filter(alone).filter_map(at).filter(|&point| self.frame.contains(point))
     }
 
     /// Abscissa, place of the label, and label of each marker inside the frame.
@@ -205,13 +218,14 @@ impl<'a> Panel<'a> {
         canvas: &Canvas<DB>,
         number: usize,
         shape: usize,
-        pattern: Option<(f64, f64)>,
+        strokes: &[coincidence::Stroke],
     ) -> Result<(), IoError> {
         let colour = Colour::palette(shape);
         if self.chart.series[number].style == SeriesStyle::Points {
             return self.symbols(number).try_for_each(|at| draw_symbol(canvas, at, colour, shape));
         }
-        self.pieces(number).iter().try_for_each(|piece| draw_line(canvas, piece, colour, pattern))
+        strokes.iter().try_for_each(|(line, pattern)| draw_line(canvas, line, colour, *pattern))?;
+        self.lone_points(number).try_for_each(|at| canvas.disc(at, LONE, colour))
     }
 }
 

@@ -23,6 +23,9 @@ const SECTION_ROW: f64 = 13.0;
 /// More notes than this would leave no room for the curves.
 const NOTES: usize = 4;
 
+/// With fewer than one finite value in so many, a panel says that there is next to nothing to see.
+const SPARSE: usize = 50;
+
 /// Ticks of both axes, and the labels that their common powers of ten leave.
 pub(super) struct Ticks {
     across: Vec<Tick>,
@@ -49,7 +52,7 @@ impl Panel<'_> {
     pub(super) fn ticks(&self) -> Ticks {
         let (mut across, x_exponent) = self.x.ticks(horizontal_room(self.frame.width()));
         let (mut upwards, mut y_exponent) = self.y.ticks(vertical_room(self.frame.height()));
-        if self.is_empty() {
+        if self.located()[0] == 0 {
             // Without a value there is no range that would mean something.
             (upwards, y_exponent) = (Vec::new(), 0);
             let mut points = self.chart.series.iter().flat_map(|series| &series.points);
@@ -123,14 +126,16 @@ impl Panel<'_> {
         Ok(())
     }
 
-    /// Says in words that there is nothing to see.
+    /// Says in words that there is nothing, or next to nothing, to see.
     pub(super) fn draw_emptiness<DB: DrawingBackend>(&self, canvas: &Canvas<DB>) -> Result<(), IoError> {
-        if !self.is_empty() {
-            return Ok(());
-        }
-        let points = self.chart.series.iter().map(|series| series.points.len()).sum::<usize>();
-        let text = if points == 0 { "no data" } else { "no finite value to show" };
-        let colour = if points == 0 { MARKER_INK } else { NOTE_INK };
+        let (text, colour) = match self.located() {
+            [_, 0] => ("no data".to_owned(), MARKER_INK),
+            [0, _] => ("no finite value to show".to_owned(), NOTE_INK),
+            [located, all] if located < all / SPARSE => {
+                (format!("only {located} of {all} values are finite"), NOTE_INK)
+            }
+            _ => return Ok(()),
+        };
         let (along, across) = (Along::Middle, Across::Middle);
         let setting = Setting { size: TITLE_FONT, colour, along, across, upwards: false };
         let Rectangle { left, top, right, bottom } = self.frame;

@@ -2,7 +2,7 @@
 
 use super::canvas::{Across, Along, Canvas, Setting, text_width};
 use super::chart::SeriesStyle;
-use super::draw::{MARKER_INK, Panel, TICK_FONT, draw_line, draw_symbol};
+use super::draw::{DASH, MARKER_INK, Panel, TICK_FONT, draw_line, draw_symbol};
 use super::geometry::{Point, Rectangle};
 use super::placing;
 use crate::{Colour, IoError};
@@ -46,11 +46,7 @@ fn extent(panel: &Panel<'_>) -> Extent {
 }
 
 /// Draws the labels of all series that have one.
-pub(super) fn draw<DB: DrawingBackend>(
-    canvas: &Canvas<DB>,
-    panel: &Panel<'_>,
-    patterns: &[Option<(f64, f64)>],
-) -> Result<(), IoError> {
+pub(super) fn draw<DB: DrawingBackend>(canvas: &Canvas<DB>, panel: &Panel<'_>) -> Result<(), IoError> {
     let colours = panel.chart.colours();
     let extent = extent(panel);
     if extent.entries.is_empty() {
@@ -75,7 +71,7 @@ pub(super) fn draw<DB: DrawingBackend>(
         let y = top + 0.5 * PADDING + ROW * (row as f64 + 0.5);
         let start = left + PADDING;
         let style = panel.chart.series[number].style;
-        draw_sample(canvas, style, patterns[number], (start, y), colours[number])?;
+        draw_sample(canvas, style, (start, y), colours[number])?;
         let (along, across) = (Along::Start, Across::Middle);
         let setting = Setting { size: TICK_FONT, colour: Colour::grey(0x22), along, across, upwards: false };
         canvas.text((start + SAMPLE + 6.0, y), &panel.chart.series[number].label, setting)?;
@@ -86,14 +82,14 @@ pub(super) fn draw<DB: DrawingBackend>(
 fn draw_sample<DB: DrawingBackend>(
     canvas: &Canvas<DB>,
     style: SeriesStyle,
-    pattern: Option<(f64, f64)>,
     (x, y): Point,
     number: usize,
 ) -> Result<(), IoError> {
     let colour = Colour::palette(number);
     match style {
         SeriesStyle::Points => draw_symbol(canvas, (x + 0.5 * SAMPLE, y), colour, number),
-        _ => draw_line(canvas, &[(x, y), (x + SAMPLE, y)], colour, pattern),
+        SeriesStyle::Line => draw_line(canvas, &[(x, y), (x + SAMPLE, y)], colour, None),
+        SeriesStyle::Dashed => draw_line(canvas, &[(x, y), (x + SAMPLE, y)], colour, Some(DASH)),
     }
 }
 

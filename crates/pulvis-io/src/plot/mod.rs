@@ -6,7 +6,7 @@
 //!
 //! Points that are not finite (or not positive on a logarithmic axis) are gaps in their line; infinities are marked by
 //! arrows at the edge, and notes above the panel tell what cannot be shown, of which curve, and from where on. A panel
-//! without a finite value says so. A curve that hides most of an earlier one is dashed. A power of ten that an axis leaves
+//! without a finite value says so. A curve is dashed where it hides an earlier one. A power of ten that an axis leaves
 //! out becomes the prefix of its unit.
 //!
 //! ```

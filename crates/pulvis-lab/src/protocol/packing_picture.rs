@@ -69,24 +69,30 @@ fn contacts_of_each(simulation: &Simulation, count: usize) -> Vec<f64> {
 fn outlines(scenario: &Scenario, simulation: &Simulation, centres: &[[f64; 3]]) -> Vec<OutlineBox> {
     let faces: [[Option<f64>; 2]; 3] = std::array::from_fn(|axis| faces(scenario, simulation, axis));
     let start = scenario.enclosure;
+    let first = || start.map(|start| OutlineBox { low: start.lower.to_array(), high: start.upper.to_array() });
+    if faces.iter().flatten().flatten().any(|at| !at.is_finite()) {
+        return first().into_iter().collect();
+    }
     let whole = |axis: usize| faces[axis][0].zip(faces[axis][1]);
     if let (Some(x), Some(y), Some(z)) = (whole(0), whole(1), whole(2)) {
         let sound = |axis: usize, (low, high): (f64, f64)| {
-            let first = start.map_or(high - low, |start| start.size()[axis]);
-            (high - low).abs() <= BLOWN_APART * first && low.is_finite() && high.is_finite()
+            let size = start.map_or(high - low, |start| start.size()[axis]);
+            (high - low).abs() <= BLOWN_APART * size
         };
         if sound(0, x) && sound(1, y) && sound(2, z) {
             return vec![OutlineBox { low: [x.0, y.0, z.0], high: [x.1, y.1, z.1] }];
         }
-        let first =
-            start.map(|start| OutlineBox { low: start.lower.to_array(), high: start.upper.to_array() });
-        return first.into_iter().collect();
+        return first().into_iter().collect();
     }
-    // Across a single wall its edges lie where the particles end.
+    // Along a single wall its edges lie where the particles end, those aside that have flown away.
     let ends: [[f64; 2]; 3] = std::array::from_fn(|axis| {
-        let coordinates = centres.iter().map(|centre| centre[axis]);
+        let [least, most] = start.map_or([f64::NEG_INFINITY, f64::INFINITY], |start| {
+            let size = start.size()[axis];
+            [start.lower[axis] - size, start.upper[axis] + size]
+        });
+        let near = centres.iter().map(|centre| centre[axis]).filter(|x| (least..=most).contains(x));
         let [low, high] =
-            coordinates.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+            near.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
         [faces[axis][0].unwrap_or(low), faces[axis][1].unwrap_or(high)]
     });
     let walls = (0..3).flat_map(|axis| faces[axis].into_iter().flatten().map(move |at| (axis, at)));

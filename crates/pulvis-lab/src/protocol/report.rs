@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use pulvis_core::Simulation;
-use pulvis_input::scenario::Scenario;
+use pulvis_input::scenario::{Scenario, WallControl};
 use pulvis_io::IoError;
 use pulvis_io::plot::{Chart, Figure, Series as Line};
 
 use super::measure::Measure;
 use super::packing_picture;
+use super::setup::box_walls;
 
 /// The rows of a time series.
 pub(super) struct Series<'a> {
@@ -138,8 +139,10 @@ fn stresses(scenario: &Scenario, series: &Series<'_>) -> Option<Figure> {
     let mut stress = series.chart(scenario, "Stress on walls").y_label("stress [Pa]").zero_line().robust_y();
     let mut lengths = series.chart(scenario, "Length of the sample").y_label("length [m]");
     let mut any = false;
-    for axis in AXES {
-        let points = series.over_time(&format!("wall_stress_{axis}"));
+    for (number, axis) in AXES.into_iter().enumerate() {
+        // Walls that the scenario takes away have no stress, which is nothing to remark on.
+        let gone = stage_without_walls(scenario, number);
+        let points = series.points("time", &format!("wall_stress_{axis}"), |stage| stage < gone);
         if points.iter().any(|(_, stress)| stress.is_finite()) {
             any = true;
             stress = stress.series(Line::line(axis, points));
@@ -147,6 +150,21 @@ fn stresses(scenario: &Scenario, series: &Series<'_>) -> Option<Figure> {
         }
     }
     any.then(|| figure(scenario).panel(stress).panel(lengths))
+}
+
+/// The first stage, from 1, in which no wall of the box is left along an axis.
+fn stage_without_walls(scenario: &Scenario, axis: usize) -> usize {
+    let mut left: Vec<usize> = box_walls(scenario, axis).into_iter().flatten().collect();
+    for (number, stage) in (1..).zip(&scenario.stages) {
+        let removed = |wall: usize| {
+            stage.controls.iter().any(|(index, control)| *index == wall && *control == WallControl::Removed)
+        };
+        left.retain(|&wall| !removed(wall));
+        if left.is_empty() {
+            return number;
+        }
+    }
+    usize::MAX
 }
 
 /// Force over displacement along the axes that walls move along, one colour a stage, from the
