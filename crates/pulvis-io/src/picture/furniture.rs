@@ -74,7 +74,11 @@ pub(super) fn draw(
                     Setting { colour: NOTE_INK, ..setting(font, Along::Middle, Across::Middle, false) };
                 canvas.text((middle, 1.6 * font * (row as f64 + 0.5)), note, setting)?;
             }
-            if scene.scale_bar && anything { draw_scale_bar(canvas, camera, font, [margin, left, foot]) } else { Ok(()) }
+            if scene.scale_bar && anything {
+                draw_scale_bar(canvas, camera, font, [margin, left, foot])
+            } else {
+                Ok(())
+            }
         })?;
     }
     if !anything {

@@ -113,7 +113,8 @@ mod tests {
             .series(Series::line("leaves", [(0.0, 0.0), (0.5, 0.5), (1.0, -0.5)]));
         let outer = Rectangle { left: 0.0, top: 0.0, right: 600.0, bottom: 400.0 };
         let strokes = strokes(&Panel::new(&chart, outer, 50.0, 0.0));
-        let patterns = |number: usize| strokes[number].iter().map(|(_, pattern)| *pattern).collect::<Vec<_>>();
+        let patterns =
+            |number: usize| strokes[number].iter().map(|(_, pattern)| *pattern).collect::<Vec<_>>();
         assert_eq!(patterns(0), [None]);
         assert_eq!(patterns(1), [Some((0.5 * PERIOD, 0.5 * PERIOD))]);
         assert_eq!(patterns(2), [None], "curves that cross hide little");
@@ -121,7 +122,8 @@ mod tests {
         assert!(leaves.len() == 2 && leaves[1].is_none(), "{leaves:?}");
         assert!(leaves[0].is_some_and(|(dash, _)| dash < 0.4 * PERIOD), "two lie below: {leaves:?}");
         let whole: f64 = strokes[3].iter().map(|(line, _)| length(line)).sum();
-        let uncut: f64 = Panel::new(&chart, outer, 50.0, 0.0).pieces(3).iter().map(|piece| length(piece)).sum();
+        let uncut: f64 =
+            Panel::new(&chart, outer, 50.0, 0.0).pieces(3).iter().map(|piece| length(piece)).sum();
         assert!((whole - uncut).abs() < 1e-9 * uncut, "nothing is lost in cutting: {whole} of {uncut}");
     }
 }

@@ -140,9 +140,8 @@ impl<'a> Panel<'a> {
     fn lone_points(&self, number: usize) -> impl Iterator<Item = Point> {
         let points = &self.chart.series[number].points;
         let at = |index: usize| points.get(index).and_then(|&point| self.place(point));
-        let alone = move |index: &usize| {
-            index.checked_sub(1).and_then(at).is_none() && at(index + 1).is_none()
-        };
+        let alone =
+            move |index: &usize| index.checked_sub(1).and_then(at).is_none() && at(index + 1).is_none();
         (0..points.len()).filter(alone).filter_map(at).filter(|&point| self.frame.contains(point))
     }
 

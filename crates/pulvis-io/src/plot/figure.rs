@@ -231,6 +231,13 @@ mod tests {
     }
 
     #[test]
+    fn a_single_finite_value_is_a_dot_and_is_told_to_be_single() {
+        let svg = svg(|n| if n == 0 { 0.0 } else { f64::NAN });
+        assert!(svg.contains("only 1 of 100 values are finite"), "{svg}");
+        assert!(svg.lines().any(|line| line.contains("<circle") && line.contains("#0072B2")), "{svg}");
+    }
+
+    #[test]
     fn other_endings_and_sizes_are_refused() {
         let error = Chart::new("").write(Path::new("chart.pdf")).unwrap_err();
         assert_eq!(error.to_string(), "no plot format is called `pdf`; choose one of: png, svg");

@@ -69,7 +69,8 @@ fn contacts_of_each(simulation: &Simulation, count: usize) -> Vec<f64> {
 fn outlines(scenario: &Scenario, simulation: &Simulation, centres: &[[f64; 3]]) -> Vec<OutlineBox> {
     let faces: [[Option<f64>; 2]; 3] = std::array::from_fn(|axis| faces(scenario, simulation, axis));
     let start = scenario.enclosure;
-    let first = || start.map(|start| OutlineBox { low: start.lower.to_array(), high: start.upper.to_array() });
+    let first =
+        || start.map(|start| OutlineBox { low: start.lower.to_array(), high: start.upper.to_array() });
     if faces.iter().flatten().flatten().any(|at| !at.is_finite()) {
         return first().into_iter().collect();
     }
