@@ -108,9 +108,8 @@ fn outlines(scenario: &Scenario, simulation: &Simulation, centres: &[[f64; 3]]) 
 
 /// Lower and upper end of the box along an axis, as far as they are there [m].
 fn faces(scenario: &Scenario, simulation: &Simulation, axis: usize) -> [Option<f64>; 2] {
-    let domain = simulation.domain();
-    if domain.period(axis).is_some() {
-        return [Some(domain.lower()[axis]), Some(domain.upper()[axis])];
+    if let Some(domain) = scenario.domain.filter(|domain| domain.periodic[axis]) {
+        return [Some(domain.extent.lower[axis]), Some(domain.extent.upper[axis])];
     }
     box_walls(scenario, axis).map(|index| {
         let wall = simulation.walls().get(index?)?;
