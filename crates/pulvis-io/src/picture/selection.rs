@@ -95,16 +95,15 @@ fn box_limits(scene: &SphereScene<'_>) -> Option<[[f64; 3]; 2]> {
 fn bulk_limits(scene: &SphereScene<'_>, drawable: &[bool]) -> Option<[[f64; 3]; 2]> {
     let chosen = || (0..drawable.len()).filter(|&number| drawable[number]);
     let radius = quantile(chosen().map(|number| scene.radii[number]), 0.5)?;
-    let mut limits = [[0.0; 3]; 2];
-    for axis in 0..3 {
+    let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
+    for (axis, (low, high)) in low.iter_mut().zip(&mut high).enumerate() {
         let coordinates = || chosen().map(|number| scene.centres[number][axis]);
         let middle = quantile(coordinates(), 0.5)?;
         let most = quantile(coordinates().map(|x| (x - middle).abs()), MOST)?;
         let distance = FAR * (most + radius);
-        limits[0][axis] = middle - distance;
-        limits[1][axis] = middle + distance;
+        (*low, *high) = (middle - distance, middle + distance);
     }
-    Some(limits)
+    Some([low, high])
 }
 
 fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {

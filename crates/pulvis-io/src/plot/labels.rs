@@ -139,7 +139,8 @@ impl Panel<'_> {
         let (along, across) = (Along::Middle, Across::Middle);
         let setting = Setting { size: TITLE_FONT, colour, along, across, upwards: false };
         let Rectangle { left, top, right, bottom } = self.frame;
-        canvas.text((0.5 * (left + right), 0.5 * (top + bottom)), &text, setting)
+        // Above the middle, where a zero line would cross it.
+        canvas.text((0.5 * (left + right), top + 0.38 * (bottom - top)), &text, setting)
     }
 
     pub(super) fn draw_ticks<DB: DrawingBackend>(
