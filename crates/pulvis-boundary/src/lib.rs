@@ -1,4 +1,5 @@
-//! What surrounds the particles: blocks of space, periodic directions, gravity and drag.
+//! What surrounds the particles: blocks of space, periodic directions, gravity and drag, how walls
+//! move.
 //!
 //! These are the types that scenario files are read into, that packings are made in and that the engine
 //! computes with. They know no particles, no engine and no files.
@@ -6,7 +7,9 @@
 mod background;
 mod cuboid;
 mod domain;
+pub mod motion;
 
 pub use background::{Background, Drag};
 pub use cuboid::Cuboid;
 pub use domain::{Domain, Images};
+pub use motion::WallMotion;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use pulvis_math::{Kernel, Packed4, Simd4, Simd8};
 
-use crate::particles::{ForceTorque, Particles};
+use crate::particles::{ForceTorque, Particles, SOLID_SPHERE};
 use crate::shared::Shared;
 use pulvis_boundary::Background;
 
@@ -45,9 +45,6 @@ impl<'a> Columns<'a> {
         }
     }
 }
-
-/// 1/I over 1/(m a²) of a solid sphere, I = 2/5 m a².
-const INVERSE_INERTIA: f64 = 2.5;
 
 /// The ends of a step for some rows: the second half kick of one step if `FINISH`, the first half kick and
 /// the drift of the next one if `BEGIN`; both in one go while the rows are at hand.
@@ -127,7 +124,7 @@ impl<const FINISH: bool, const BEGIN: bool> Kernel for HalfKicks<'_, FINISH, BEG
         let mut kicked = Kicked::default();
         for row in 0..rows.len() {
             let (inverse_mass, inverse_radius) = (velocity[row].scalar, angular_velocity[row].scalar);
-            let inverse_inertia = INVERSE_INERTIA * inverse_mass * inverse_radius * inverse_radius;
+            let inverse_inertia = (1.0 / SOLID_SPHERE) * inverse_mass * inverse_radius * inverse_radius;
             let (mut push, mut turn) = (
                 R::Simd4::load(&forces_and_torques[row].force),
                 R::Simd4::load(&forces_and_torques[row].torque),

@@ -14,6 +14,9 @@ pub type ParticleId = u32;
 /// A material's index in the list of materials.
 pub type MaterialIndex = u16;
 
+/// Moment of inertia of a solid sphere over m a² [1].
+pub(crate) const SOLID_SPHERE: f64 = 0.4;
+
 /// A spherical particle to start with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
@@ -236,10 +239,10 @@ impl Particles {
         rows
     }
 
-    /// Moment of inertia of a solid sphere, 2/5 m a² [kg m²].
+    /// Moment of inertia [kg m²].
     #[inline(always)]
     pub(crate) fn inertia(&self, row: usize) -> f64 {
-        0.4 * self.mass[row] * self.radius[row] * self.radius[row]
+        SOLID_SPHERE * self.mass[row] * self.radius[row] * self.radius[row]
     }
 
     /// Puts the rows into a new order: row k becomes what was row `order[k]`; rows that are not in the order are

@@ -90,8 +90,9 @@ fn a_tablet_has_its_walls_contacts_and_stages() {
     assert_eq!(sinter.until.stress, Some(stress));
     let (x_high, control) = sinter.controls[0];
     assert_eq!(tablet.walls[x_high].name, "x-high");
-    let servo = Servo { pressure: 4e7, from: 0.0, ramp: 1e-6, mass: 1e-9, damping: 1e-3 };
-    assert_eq!(control, WallControl::Servo(servo));
+    let servo =
+        Servo { pressure: PressureRamp { from: 0.0, to: 4e7, duration: 1e-6 }, mass: 1e-9, damping: 1e-3 };
+    assert_eq!(control, WallControl::Motion(WallMotion::Servo(servo)));
     assert_eq!(sinter.time, TimeStep::Auto { steps_per_contact_time: 20.0 });
     assert_eq!((sinter.background.drag, release.background.drag), (1e-5, 0.0));
     assert_eq!(release.background.rotational_drag, 1e-6);

@@ -6,7 +6,7 @@ mod tension;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use pulvis_input::scenario::{Scenario, WallControl};
+use pulvis_input::scenario::{Scenario, WallControl, WallMotion};
 
 use crate::Outcome;
 use crate::table::Table;
@@ -107,7 +107,7 @@ fn sample(scenario: &Scenario, rows: &Rows, report: &mut Report) -> Outcome {
         .iter()
         .enumerate()
         .filter_map(|(stage, plan)| match plan.controls.first() {
-            Some((_, WallControl::Servo(servo))) => Some((stage, servo.pressure)),
+            Some((_, WallControl::Motion(WallMotion::Servo(servo)))) => Some((stage, servo.pressure.to)),
             _ => None,
         })
         .collect();

@@ -1,6 +1,6 @@
 //! The force over the displacement of one stage of tension.
 
-use pulvis_input::scenario::{Scenario, WallControl};
+use pulvis_input::scenario::{Scenario, WallControl, WallMotion};
 
 use super::Rows;
 use crate::Outcome;
@@ -22,7 +22,9 @@ impl Tension {
         let scale = scenario.output.dimensionless.ok_or("the run has no [output.dimensionless]")?.length;
         let mut found = Vec::new();
         for (stage, plan) in scenario.stages.iter().enumerate() {
-            let Some((_, WallControl::Cosine(motion))) = plan.controls.first() else { continue };
+            let Some((_, WallControl::Motion(WallMotion::Cosine(motion)))) = plan.controls.first() else {
+                continue;
+            };
             let own = rows.of_stage(stage);
             let first = *own.first().ok_or_else(|| format!("the run did not come to stage {}", stage + 1))?;
             let phases = own.iter().map(|&row| (rows.time[row] - rows.time[first]) / motion.period).collect();

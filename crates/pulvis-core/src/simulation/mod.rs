@@ -21,7 +21,7 @@ use crate::neighbours::{Moved, Skin};
 use crate::particles::{MaterialIndex, Particle, Particles};
 use crate::phases::Phases;
 use crate::thread_pool::ThreadPool;
-use crate::walls::{Extent, FaceArea, Wall, WallMotion, WallState};
+use crate::walls::{Extent, FaceArea, Wall, WallState};
 use pulvis_boundary::Background;
 use pulvis_boundary::Domain;
 
@@ -204,7 +204,7 @@ impl Simulation {
             if let Some(axis) = (0..3).filter(|&axis| self.domain.period(axis).is_some()).find(across) {
                 return Err(SetupError::WallAcrossPeriod { wall: index, axis });
             }
-            if matches!(wall.motion, WallMotion::Servo(_)) && wall.area == FaceArea::Unknown {
+            if wall.motion.law().needs_area() && wall.area == FaceArea::Unknown {
                 return Err(SetupError::NoArea { wall: index });
             }
         }

@@ -1,32 +1,14 @@
-//! Plane walls and what moves them. One file a motion; the list is in this file.
+//! Plane walls and their state. What moves them is in `pulvis_boundary::motion`.
 
-mod cosine;
 mod record;
-mod servo;
-mod velocity;
 
-pub use cosine::Cosine;
-pub use servo::{PressureRamp, Servo};
-pub use velocity::Velocity;
+pub use pulvis_boundary::WallMotion;
+pub use pulvis_boundary::motion::{Cosine, PressureRamp, Push, Servo, Velocity};
 
 use pulvis_math::Vector3;
 
 use crate::contacts::WallMotionNow;
 use crate::particles::MaterialIndex;
-
-/// How a wall moves.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum WallMotion {
-    /// It stands still.
-    #[default]
-    Fixed,
-    /// It moves with a given velocity.
-    Velocity(Velocity),
-    /// It moves forth and back with a cosine profile.
-    Cosine(Cosine),
-    /// It follows a pressure.
-    Servo(Servo),
-}
 
 /// The area over which a wall's force is spread.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,10 +93,8 @@ impl WallState {
     /// from the velocity that it has.
     pub(crate) fn start(&mut self, motion: &WallMotion) {
         self.travelled = Vector3::zero();
-        match motion {
-            WallMotion::Servo(_) => {}
-            WallMotion::Velocity(motion) => self.velocity = motion.velocity,
-            WallMotion::Fixed | WallMotion::Cosine(_) => self.velocity = Vector3::zero(),
+        if !motion.law().is_pushed() {
+            self.velocity = motion.law().velocity(0.0);
         }
     }
 
@@ -126,19 +106,13 @@ impl WallState {
 
     /// Moves the wall over the step from `time` (since the motion began) to `time + time_step` [s].
     pub(crate) fn advance(&mut self, wall: &mut Wall, area: Option<f64>, time: f64, time_step: f64) {
-        let end = time + time_step;
-        match &wall.motion {
-            WallMotion::Fixed => self.prescribe(Vector3::zero(), Vector3::zero(), time_step),
-            WallMotion::Velocity(motion) => {
-                self.prescribe(self.travelled + motion.velocity * time_step, motion.velocity, time_step);
+        let motion = wall.motion.law();
+        match motion.acceleration(&self.push(wall, self.velocity, area, time)) {
+            None => {
+                let travelled = motion.displacement(self.travelled, time, time_step);
+                self.prescribe(travelled, motion.velocity(time + time_step), time_step);
             }
-            WallMotion::Cosine(motion) => {
-                self.prescribe(motion.displacement_at(end), motion.velocity_at(end), time_step);
-            }
-            WallMotion::Servo(servo) => {
-                let push = self.force.dot(wall.normal);
-                let acceleration =
-                    servo.acceleration(push, self.velocity.dot(wall.normal), area.unwrap_or(0.0), time);
+            Some(acceleration) => {
                 let half_kick = wall.normal * (0.5 * time_step * acceleration);
                 self.velocity_mid = self.velocity + half_kick;
                 self.velocity_predicted = self.velocity_mid + half_kick;
@@ -167,17 +141,21 @@ impl WallState {
         time_step: f64,
     ) {
         let work = -0.5 * (self.force + force).dot(self.displacement);
-        match wall.motion {
-            WallMotion::Servo(_) => self.work_servo += work,
-            _ => self.work_prescribed += work,
-        }
         self.force = force;
-        if let WallMotion::Servo(servo) = &wall.motion {
-            let push = force.dot(wall.normal);
-            let speed = self.velocity_predicted.dot(wall.normal);
-            let acceleration = servo.acceleration(push, speed, area.unwrap_or(0.0), time + time_step);
-            self.velocity = self.velocity_mid + wall.normal * (0.5 * time_step * acceleration);
+        let push = self.push(wall, self.velocity_predicted, area, time + time_step);
+        match wall.motion.law().acceleration(&push) {
+            None => self.work_prescribed += work,
+            Some(acceleration) => {
+                self.work_servo += work;
+                self.velocity = self.velocity_mid + wall.normal * (0.5 * time_step * acceleration);
+            }
         }
+    }
+
+    /// What acts on the wall at `time` [s] since the motion began, where it has a `velocity` [m/s].
+    fn push(&self, wall: &Wall, velocity: Vector3, area: Option<f64>, time: f64) -> Push {
+        let (force, speed) = (self.force.dot(wall.normal), velocity.dot(wall.normal));
+        Push { force, speed, area: area.unwrap_or(0.0), time }
     }
 
     /// What the contact loop needs to know at the end of the drift.

@@ -1,5 +1,6 @@
-//! How walls are moved.
+//! How walls are moved: motions as they describe themselves, read from a scenario and written back.
 
+use super::resolved::writer::{Writer, quantity, text, vector};
 use super::walls::Wall;
 use crate::context::Reported;
 use crate::list::Vector;
@@ -7,120 +8,121 @@ use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::Name;
-use pulvis_math::{Dimension, Vector3};
+use pulvis_boundary::WallMotion;
+use pulvis_boundary::motion::{Parameter, Presence, Range, Slot};
 
-/// How a wall moves from the start of a stage on.
+/// What happens to a wall at the start of a stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WallControl {
-    /// It stays where it is.
-    Fixed,
-    /// It moves with a constant velocity [m/s].
-    Velocity(Vector3),
-    /// It goes to and fro.
-    Cosine(CosineMotion),
-    /// It follows the pressure of the particles.
-    Servo(Servo),
+    /// It moves in this way from now on.
+    Motion(WallMotion),
     /// It is taken away, for good.
     Removed,
 }
 
+const REMOVED: &str = "removed";
+
 impl WallControl {
     /// The name in a scenario.
-    pub const fn name(&self) -> &'static str {
+    pub fn name(&self) -> &'static str {
+        self.motion().map_or(REMOVED, |motion| motion.name())
+    }
+
+    /// How the wall moves, if it is there.
+    pub fn motion(&self) -> Option<WallMotion> {
         match self {
-            Self::Fixed => "fixed",
-            Self::Velocity(_) => "velocity",
-            Self::Cosine(_) => "cosine",
-            Self::Servo(_) => "servo",
-            Self::Removed => "removed",
+            Self::Motion(motion) => Some(*motion),
+            Self::Removed => None,
         }
     }
-}
 
-/// The motion X(t) = X0 + displacement/2 (1 − cos(2π t/period)); after its cycles the wall stays.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CosineMotion {
-    /// Displacement at half a period [m].
-    pub displacement: Vector3,
-    /// Period [s].
-    pub period: f64,
-    /// Number of periods, not always whole [1].
-    pub cycles: f64,
-}
-
-impl CosineMotion {
-    /// The time that all cycles take [s].
-    pub fn duration(&self) -> f64 {
-        self.period * self.cycles
+    /// After which time the wall stands still [s]; `None` for motions without end.
+    pub fn duration(&self) -> Option<f64> {
+        self.motion()?.law().duration()
     }
 }
-
-/// A wall with mass and damping that moves along its normal until the particles push back with a
-/// pressure.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Servo {
-    /// Pressure after the ramp, compression positive [Pa].
-    pub pressure: f64,
-    /// Pressure at the start of the stage [Pa].
-    pub from: f64,
-    /// Duration of the ramp between the two, half a cosine [s].
-    pub ramp: f64,
-    /// Mass of the wall [kg].
-    pub mass: f64,
-    /// Coefficient of its dashpot [kg/s].
-    pub damping: f64,
-}
-
-const NAMES: [&str; 5] = ["fixed", "velocity", "cosine", "servo", "removed"];
 
 /// Reads `[stages.walls.NAME]`.
 pub(super) fn read_control(mut table: TableReader<'_>, wall: &Wall) -> Result<WallControl, Reported> {
-    let control = table.required("control", Name(&NAMES))?;
-    let read = match control {
-        "velocity" => table
-            .required("velocity", Vector::of(Dimension::VELOCITY))
-            .map(|v| WallControl::Velocity(v.into())),
-        "cosine" => read_cosine(&mut table),
-        "servo" => read_servo(&mut table, wall),
-        "removed" => Ok(WallControl::Removed),
-        _ => Ok(WallControl::Fixed),
+    let names: Vec<&str> = WallMotion::NAMES.iter().copied().chain([REMOVED]).collect();
+    let name = table.required("control", Name(&names))?;
+    let read = match WallMotion::named(name) {
+        Some(motion) => read_motion(&mut table, motion, wall).map(WallControl::Motion),
+        None => Ok(WallControl::Removed),
     };
     table.finish();
     read
 }
 
-fn read_cosine(table: &mut TableReader<'_>) -> Result<WallControl, Reported> {
-    let displacement = table.required("displacement", Vector::of(Dimension::LENGTH)).and_then(|vector| {
-        if vector == [0.0; 3] {
-            let problem = Problem::rule("the displacement is zero", "a motion, or control = \"fixed\"");
-            return Err(table.refuse("displacement", problem));
-        }
-        Ok(Vector3::from(vector))
-    });
-    let period = table.required("period", QuantityRule::of(Dimension::TIME).above(0.0));
-    let cycles = table.or("cycles", QuantityRule::of(Dimension::NONE).above(0.0), 1.0);
-    let (displacement, period, cycles) = (displacement?, period?, cycles?);
-    Ok(WallControl::Cosine(CosineMotion { displacement, period, cycles }))
+/// Reads the parameters of a motion and checks it with the wall that it is for.
+fn read_motion(
+    table: &mut TableReader<'_>,
+    mut motion: WallMotion,
+    wall: &Wall,
+) -> Result<WallMotion, Reported> {
+    let mut failure = None;
+    let mut numbers: Vec<(&str, f64)> = Vec::new();
+    for parameter in motion.parameters() {
+        failure = read_parameter(table, parameter, &mut numbers).err().or(failure);
+    }
+    if motion.law().needs_area() && wall.face.is_none() && wall.area.is_none() {
+        let found = format!("the wall {} has no area for the pressure to act on", wall.name);
+        let expected = format!("`area` in [walls.{}]", wall.name);
+        return Err(table.refuse("control", Problem::rule(found, expected)));
+    }
+    if let Some(reported) = failure {
+        return Err(reported);
+    }
+    match motion.law().check() {
+        Ok(()) => Ok(motion),
+        Err(invalid) => Err(table.refuse(invalid.parameter, Problem::rule(invalid.found, invalid.expected))),
+    }
 }
 
-fn read_servo(table: &mut TableReader<'_>, wall: &Wall) -> Result<WallControl, Reported> {
-    let pressure = table.required("pressure", Dimension::PRESSURE);
-    let from = table.optional("from", Dimension::PRESSURE);
-    let ramp = table.or("ramp", QuantityRule::of(Dimension::TIME).at_least(0.0), 0.0);
-    let mass = table.required("mass", QuantityRule::of(Dimension::MASS).above(0.0));
-    let damping = table.required("damping", QuantityRule::of(Dimension::DASHPOT).at_least(0.0));
-    let sized = if wall.face.is_some() || wall.area.is_some() {
-        Ok(())
-    } else {
-        let found = format!("the wall {} has no area for the pressure to act on", wall.name);
-        Err(table.refuse("control", Problem::rule(found, format!("`area` in [walls.{}]", wall.name))))
-    };
-    let (pressure, from, ramp) = (pressure?, from?, ramp?);
-    if from.is_some_and(|from| from != pressure) && ramp == 0.0 {
-        let found = "`from` differs from `pressure`, but the ramp takes no time";
-        return Err(table.refuse("from", Problem::rule(found, "a `ramp` greater than 0")));
+/// Reads a parameter to where its value stands. `numbers` are those read before, by their keys.
+fn read_parameter(
+    table: &mut TableReader<'_>,
+    parameter: Parameter<'_>,
+    numbers: &mut Vec<(&'static str, f64)>,
+) -> Result<(), Reported> {
+    let Parameter { name, dimension, range, presence, value } = parameter;
+    let required = presence == Presence::Required;
+    match value {
+        Slot::Vector(vector) => {
+            let rule = Vector::of(dimension);
+            let read =
+                if required { table.required(name, rule).map(Some) } else { table.optional(name, rule) };
+            *vector = read?.map_or(*vector, Into::into);
+        }
+        Slot::Number(number) => {
+            let rule = match range {
+                Range::Any => QuantityRule::of(dimension),
+                Range::NonNegative => QuantityRule::of(dimension).at_least(0.0),
+                Range::Positive => QuantityRule::of(dimension).above(0.0),
+            };
+            let read =
+                if required { table.required(name, rule).map(Some) } else { table.optional(name, rule) };
+            let earlier = |key: &str| numbers.iter().find(|(name, _)| *name == key).map(|(_, value)| *value);
+            *number = match (read?, presence) {
+                (Some(read), _) => read,
+                (None, Presence::SameAs(key)) => earlier(key).unwrap_or(*number),
+                (None, _) => *number,
+            };
+            numbers.push((name, *number));
+        }
     }
-    sized?;
-    let from = from.unwrap_or(pressure);
-    Ok(WallControl::Servo(Servo { pressure, from, ramp, mass: mass?, damping: damping? }))
+    Ok(())
+}
+
+/// Writes `[stages.walls.NAME]`.
+pub(super) fn write_control(writer: &mut Writer, control: &WallControl) {
+    writer.key("control", text(control.name()));
+    let Some(mut motion) = control.motion() else { return };
+    for Parameter { name, dimension, value, .. } in motion.parameters() {
+        let value = match value {
+            Slot::Number(number) => quantity(*number, dimension),
+            Slot::Vector(components) => vector(*components, dimension),
+        };
+        writer.key(name, value);
+    }
 }

@@ -12,7 +12,7 @@ use crate::context::Reported;
 use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::Text;
-use pulvis_boundary::Background;
+use pulvis_boundary::{Background, WallMotion};
 
 /// A stage of a run, with everything that holds while it lasts.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +51,7 @@ pub(super) fn read_stages(
         return Err(root.refuse("stages", no_tables(root, "stages")));
     }
     let mut stages: Vec<PlannedStage> = Vec::new();
-    let mut now = Now { controls: vec![WallControl::Fixed; walls.len()], time };
+    let mut now = Now { controls: vec![WallControl::Motion(WallMotion::Fixed); walls.len()], time };
     let mut failure = None;
     for table in tables {
         match read_stage(table, walls, &mut now, &stages) {
@@ -138,10 +138,7 @@ fn complete(
     now: &Now,
 ) -> Result<StopRules, Reported> {
     if until.is_empty() {
-        let durations = controls.iter().filter_map(|(_, control)| match control {
-            WallControl::Cosine(motion) => Some(motion.duration()),
-            _ => None,
-        });
+        let durations = controls.iter().filter_map(|(_, control)| control.duration());
         let longest = durations.reduce(f64::max);
         until.time = Some(longest.ok_or_else(|| {
             let found = "the stage has no end";
@@ -151,8 +148,7 @@ fn complete(
         })?);
         return Ok(until);
     }
-    let axes = until.strain.map(|rule| ("strain", rule.axis)).into_iter();
-    for (rule, axis) in axes.chain(until.stress.map(|rule| ("stress", rule.axis))) {
+    for (rule, axis) in until.axes() {
         facing(axis, walls, now).map_err(|missing| {
             let found = format!("`{rule}` needs both walls of the box along {}", axis.name());
             let expected = format!("the wall {missing}, which is not there in this stage");
@@ -163,17 +159,17 @@ fn complete(
     Ok(until)
 }
 
-/// The controls of the two box walls of an axis, or the name of one that is not there.
-fn facing(axis: Axis, walls: &[Wall], now: &Now) -> Result<[WallControl; 2], &'static str> {
-    let control = |side| {
+/// The motions of the two box walls of an axis, or the name of one that is not there.
+fn facing(axis: Axis, walls: &[Wall], now: &Now) -> Result<[WallMotion; 2], &'static str> {
+    let motion = |side| {
         let face = BoxFace { axis, side };
         let found = walls.iter().zip(&now.controls).find(|(wall, _)| wall.face == Some(face));
         match found {
             Some((_, WallControl::Removed)) | None => Err(face.name()),
-            Some((_, control)) => Ok(*control),
+            Some((_, WallControl::Motion(motion))) => Ok(*motion),
         }
     };
-    Ok([control(Side::Low)?, control(Side::High)?])
+    Ok([motion(Side::Low)?, motion(Side::High)?])
 }
 
 /// Refuses a strain that nothing but the walls' own motion could reach, and that this motion never does.
@@ -186,11 +182,7 @@ fn reaches_strain(
     let only = StopRules { strain: until.strain, ..StopRules::default() };
     let Some(rule) = until.strain.filter(|_| *until == only) else { return Ok(()) };
     let Ok([low, high]) = facing(rule.axis, walls, now) else { return Ok(()) };
-    let rate = |control: WallControl| match control {
-        WallControl::Fixed => Some(0.0),
-        WallControl::Velocity(velocity) => Some(velocity[rule.axis.index()]),
-        _ => None,
-    };
+    let rate = |motion: WallMotion| motion.law().constant_velocity().map(|v| v[rule.axis.index()]);
     if let (Some(low), Some(high)) = (rate(low), rate(high))
         && (high - low) * rule.value <= 0.0
     {

@@ -1,6 +1,8 @@
-//! When a stage ends.
+//! When a stage ends. Each rule is a field of [`StopRules`], with a line where the rules are read and one where
+//! they are written.
 
 use super::axis::{Axis, AxisShape};
+use super::resolved::writer::{Writer, number, quantity, text};
 use crate::context::Reported;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
@@ -27,6 +29,17 @@ impl StopRules {
     /// Whether no rule is given.
     pub fn is_empty(&self) -> bool {
         *self == Self { minimum_time: self.minimum_time, ..Self::default() }
+    }
+
+    /// Whether something else than time may end the stage, so that nobody knows when.
+    pub fn are_open_ended(&self) -> bool {
+        !Self { time: None, ..*self }.is_empty()
+    }
+
+    /// The rules that look at the two box walls of an axis, by their keys.
+    pub(super) fn axes(&self) -> impl Iterator<Item = (&'static str, Axis)> {
+        let strain = self.strain.map(|rule| ("strain", rule.axis));
+        strain.into_iter().chain(self.stress.map(|rule| ("stress", rule.axis)))
     }
 }
 
@@ -99,6 +112,28 @@ pub(super) fn read_until(stage: &mut TableReader<'_>) -> Result<StopRules, Repor
         strain: strain?,
         stress: stress?,
     })
+}
+
+/// Writes `[stages.until]`.
+pub(super) fn write_until(writer: &mut Writer, until: &StopRules) {
+    if let Some(time) = until.time {
+        writer.key("time", quantity(time, Dimension::TIME));
+    }
+    if let Some(ratio) = until.kinetic_to_elastic {
+        writer.key("kinetic_to_elastic", number(ratio));
+        writer.key("minimum_time", quantity(until.minimum_time, Dimension::TIME));
+    }
+    if let Some(rule) = until.strain {
+        writer.key(
+            "strain",
+            format!("{{ axis = {}, value = {} }}", text(rule.axis.name()), number(rule.value)),
+        );
+    }
+    if let Some(rule) = until.stress {
+        let (axis, value) = (text(rule.axis.name()), quantity(rule.value, Dimension::PRESSURE));
+        let crosses = text(rule.crosses.name());
+        writer.key("stress", format!("{{ axis = {axis}, value = {value}, crosses = {crosses} }}"));
+    }
 }
 
 fn read_strain(mut table: TableReader<'_>) -> Result<StrainRule, Reported> {

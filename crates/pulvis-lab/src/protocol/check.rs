@@ -7,7 +7,7 @@ use pulvis_contact::theory::{CriticalVelocities, LudingPair};
 use pulvis_contact::{ContactModel, Pair};
 use pulvis_core::Particle;
 use pulvis_input::collision::luding_pair;
-use pulvis_input::scenario::{Scenario, WallControl};
+use pulvis_input::scenario::Scenario;
 
 use super::error::PrepareError;
 use super::packed::packed_memory;
@@ -152,19 +152,14 @@ fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForecast> {
     plans
         .map(|(stage, plan)| {
             let rules = &stage.until;
-            let cycles = plan.wall_changes.iter().filter_map(|(_, control)| match control {
-                WallControl::Cosine(motion) => Some(motion.duration()),
-                _ => None,
-            });
+            let cycles = plan.wall_changes.iter().filter_map(|(_, control)| control.duration());
             let duration = rules.time.or_else(|| cycles.max_by(f64::total_cmp));
             StageForecast {
                 name: stage.name.clone(),
                 time_step: plan.time_step,
                 shortest: plan.shortest.map(|contact| (contact.duration, between(scenario, &contact))),
                 steps: duration.map(|duration| (duration / plan.time_step).ceil() as u64),
-                open_ended: rules.kinetic_to_elastic.is_some()
-                    || rules.strain.is_some()
-                    || rules.stress.is_some(),
+                open_ended: rules.are_open_ended(),
             }
         })
         .collect()

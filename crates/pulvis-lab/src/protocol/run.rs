@@ -14,7 +14,7 @@ use super::folder;
 use super::measure::Measure;
 use super::pace::{Due, PACE, Pace};
 use super::report::{self, Series};
-use super::setup::{Prepared, StagePlan, motion, prepare};
+use super::setup::{Prepared, StagePlan, prepare};
 use super::snapshots::Snapshots;
 use super::stage::{Ending, StageWatch, length};
 
@@ -273,12 +273,12 @@ impl<'a> Run<'a> {
         // A wall that was on its way by a function of time has arrived.
         for place in 0..simulation.walls().len() {
             let changed = plan.wall_changes.iter().any(|(wall, _)| *wall == place);
-            if !changed && matches!(simulation.walls()[place].motion, WallMotion::Cosine(_)) {
+            if !changed && simulation.walls()[place].motion.law().duration().is_some() {
                 simulation.set_wall_motion(place, WallMotion::Fixed);
             }
         }
         for (place, control) in &plan.wall_changes {
-            simulation.set_wall_motion(*place, motion(control));
+            simulation.set_wall_motion(*place, control.motion().unwrap_or_default());
             if matches!(control, WallControl::Removed) {
                 simulation.set_wall_present(*place, false);
             }

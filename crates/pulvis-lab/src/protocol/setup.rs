@@ -1,6 +1,6 @@
 //! From a scenario to a simulation that is ready to run.
 
-use pulvis_core::walls::{Cosine, Extent, FaceArea, PressureRamp, Servo, Velocity, Wall, WallMotion};
+use pulvis_core::walls::{Extent, FaceArea, Wall};
 use pulvis_core::{
     Background, ContactPartner, Domain, Interactions, MaterialIndex, Particle, Setup, SetupError,
     ShortestContact, Simulation, shortest_contact,
@@ -172,24 +172,6 @@ pub(super) fn box_walls(scenario: &Scenario, axis: usize) -> [Option<usize>; 2] 
             .iter()
             .position(|wall| wall.face.is_some_and(|face| face.axis.index() == axis && face.side == side))
     })
-}
-
-/// The motion that a control means.
-pub(super) fn motion(control: &WallControl) -> WallMotion {
-    match control {
-        WallControl::Fixed | WallControl::Removed => WallMotion::Fixed,
-        WallControl::Velocity(velocity) => WallMotion::Velocity(Velocity { velocity: *velocity }),
-        WallControl::Cosine(motion) => WallMotion::Cosine(Cosine {
-            displacement: motion.displacement,
-            period: motion.period,
-            cycles: motion.cycles,
-        }),
-        WallControl::Servo(servo) => WallMotion::Servo(Servo {
-            pressure: PressureRamp { from: servo.from, to: servo.pressure, duration: servo.ramp },
-            mass: servo.mass,
-            damping: servo.damping,
-        }),
-    }
 }
 
 /// What the engine refuses, as a mistake of the scenario.

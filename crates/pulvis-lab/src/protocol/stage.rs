@@ -1,7 +1,6 @@
 //! When a stage ends.
 
 use pulvis_core::Simulation;
-use pulvis_core::walls::WallMotion;
 use pulvis_input::scenario::{Crossing, Scenario, Stage, StopRules};
 
 use super::setup::{box_walls, extent};
@@ -149,13 +148,10 @@ pub(super) fn whole_steps(time: f64, simulation: &Simulation) -> u64 {
     ((time - simulation.time()) / simulation.time_step() - 2.0) as u64
 }
 
-/// Duration of the longest cosine motion that is under way [s].
+/// Duration of the longest motion with an end that is under way [s].
 fn cycles_duration(simulation: &Simulation) -> Option<f64> {
-    let durations = simulation.walls().iter().filter_map(|wall| match &wall.motion {
-        WallMotion::Cosine(cosine) if wall.present => Some(cosine.duration()),
-        _ => None,
-    });
-    durations.max_by(f64::total_cmp)
+    let present = simulation.walls().iter().filter(|wall| wall.present);
+    present.filter_map(|wall| wall.motion.law().duration()).max_by(f64::total_cmp)
 }
 
 /// Extent of the sample along an axis now [m].

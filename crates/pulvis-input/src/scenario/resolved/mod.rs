@@ -2,7 +2,7 @@
 
 mod bodies;
 mod stages;
-mod writer;
+pub(super) mod writer;
 
 use super::output::{Interval, OutputPlan, Snapshots};
 use super::time::TimeStep;

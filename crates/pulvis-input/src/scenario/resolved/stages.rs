@@ -1,8 +1,10 @@
 //! Stages of the resolved scenario: what each of them changes.
 
-use super::writer::{Writer, key, number, quantity, text, vector};
+use super::writer::{Writer, key, quantity, text};
 use super::{gravity, key_of_law, law_keys, write_time};
-use crate::scenario::{Background, Contact, Scenario, Stage, StopRules, TimeStep, WallControl};
+use crate::scenario::controls::write_control;
+use crate::scenario::until::write_until;
+use crate::scenario::{Background, Contact, Scenario, Stage, TimeStep};
 use pulvis_math::Dimension;
 
 /// What held before a stage.
@@ -62,46 +64,5 @@ impl Scenario {
             }
         }
         switches
-    }
-}
-
-fn write_until(writer: &mut Writer, until: &StopRules) {
-    if let Some(time) = until.time {
-        writer.key("time", quantity(time, Dimension::TIME));
-    }
-    if let Some(ratio) = until.kinetic_to_elastic {
-        writer.key("kinetic_to_elastic", number(ratio));
-        writer.key("minimum_time", quantity(until.minimum_time, Dimension::TIME));
-    }
-    if let Some(rule) = until.strain {
-        writer.key(
-            "strain",
-            format!("{{ axis = {}, value = {} }}", text(rule.axis.name()), number(rule.value)),
-        );
-    }
-    if let Some(rule) = until.stress {
-        let (axis, value) = (text(rule.axis.name()), quantity(rule.value, Dimension::PRESSURE));
-        let crosses = text(rule.crosses.name());
-        writer.key("stress", format!("{{ axis = {axis}, value = {value}, crosses = {crosses} }}"));
-    }
-}
-
-fn write_control(writer: &mut Writer, control: &WallControl) {
-    writer.key("control", text(control.name()));
-    match control {
-        WallControl::Fixed | WallControl::Removed => {}
-        WallControl::Velocity(velocity) => writer.key("velocity", vector(*velocity, Dimension::VELOCITY)),
-        WallControl::Cosine(motion) => {
-            writer.key("displacement", vector(motion.displacement, Dimension::LENGTH));
-            writer.key("period", quantity(motion.period, Dimension::TIME));
-            writer.key("cycles", number(motion.cycles));
-        }
-        WallControl::Servo(servo) => {
-            writer.key("pressure", quantity(servo.pressure, Dimension::PRESSURE));
-            writer.key("from", quantity(servo.from, Dimension::PRESSURE));
-            writer.key("ramp", quantity(servo.ramp, Dimension::TIME));
-            writer.key("mass", quantity(servo.mass, Dimension::MASS));
-            writer.key("damping", quantity(servo.damping, Dimension::DASHPOT));
-        }
     }
 }

@@ -5,33 +5,33 @@ use std::fmt::Write;
 
 /// Grows a TOML text line by line.
 #[derive(Debug, Default)]
-pub(super) struct Writer {
+pub(in crate::scenario) struct Writer {
     text: String,
 }
 
 impl Writer {
     /// A comment; line breaks would end it.
-    pub(super) fn comment(&mut self, comment: &str) {
+    pub(in crate::scenario) fn comment(&mut self, comment: &str) {
         let comment: String = comment.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         self.line(&format!("# {comment}"));
     }
 
     /// An empty line and the header of a table.
-    pub(super) fn table(&mut self, header: &str) {
+    pub(in crate::scenario) fn table(&mut self, header: &str) {
         self.line(&format!("\n[{header}]"));
     }
 
     /// An empty line and the header of one more table of a list.
-    pub(super) fn item(&mut self, header: &str) {
+    pub(in crate::scenario) fn item(&mut self, header: &str) {
         self.line(&format!("\n[[{header}]]"));
     }
 
     /// `key = value`, the value as TOML.
-    pub(super) fn key(&mut self, key: &str, value: impl AsRef<str>) {
+    pub(in crate::scenario) fn key(&mut self, key: &str, value: impl AsRef<str>) {
         self.line(&format!("{key} = {}", value.as_ref()));
     }
 
-    pub(super) fn finish(self) -> String {
+    pub(in crate::scenario) fn finish(self) -> String {
         self.text
     }
 
@@ -42,12 +42,12 @@ impl Writer {
 }
 
 /// A pure number. The shortest decimal that reads back to the same number, as `{:?}` writes it.
-pub(super) fn number(value: f64) -> String {
+pub(in crate::scenario) fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
 /// A quantity with its SI unit; a pure number needs no quotes.
-pub(super) fn quantity(value: f64, dimension: Dimension) -> String {
+pub(in crate::scenario) fn quantity(value: f64, dimension: Dimension) -> String {
     match dimension {
         Dimension::NONE => number(value),
         _ if value.is_infinite() => "\"inf\"".to_owned(),
@@ -56,17 +56,17 @@ pub(super) fn quantity(value: f64, dimension: Dimension) -> String {
 }
 
 /// Three components with their unit.
-pub(super) fn vector(value: Vector3, dimension: Dimension) -> String {
+pub(in crate::scenario) fn vector(value: Vector3, dimension: Dimension) -> String {
     list(value.to_array().iter().map(|component| quantity(*component, dimension)))
 }
 
 /// A list of values that are TOML already.
-pub(super) fn list(items: impl IntoIterator<Item = String>) -> String {
+pub(in crate::scenario) fn list(items: impl IntoIterator<Item = String>) -> String {
     format!("[{}]", items.into_iter().collect::<Vec<_>>().join(", "))
 }
 
 /// A text in quotes.
-pub(super) fn text(value: &str) -> String {
+pub(in crate::scenario) fn text(value: &str) -> String {
     let mut quoted = String::with_capacity(value.len() + 2);
     quoted.push('"');
     for c in value.chars() {
@@ -84,7 +84,7 @@ pub(super) fn text(value: &str) -> String {
 }
 
 /// A key, in quotes only where TOML needs them.
-pub(super) fn key(name: &str) -> String {
+pub(in crate::scenario) fn key(name: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
     if !name.is_empty() && name.chars().all(bare) { name.to_owned() } else { text(name) }
 }

@@ -1,8 +1,10 @@
-//! A wall that moves forth and back smoothly.
+//! A wall that moves to and fro smoothly.
 
 use std::f64::consts::TAU;
 
-use pulvis_math::{Vector3, elementary};
+use pulvis_math::{Dimension, Vector3, elementary};
+
+use super::{InvalidMotion, Motion, Parameter, Presence, Range};
 
 /// Displacement X(t) = A/2 (1 − cos(2 π t/P)) from the place where the motion began: from rest to the
 /// amplitude A at half a period and back to rest at P.
@@ -19,14 +21,49 @@ pub struct Cosine {
     pub cycles: f64,
 }
 
+impl Default for Cosine {
+    fn default() -> Self {
+        Self { displacement: Vector3::zero(), period: 0.0, cycles: 1.0 }
+    }
+}
+
+impl Motion for Cosine {
+    fn parameters(&mut self) -> Vec<Parameter<'_>> {
+        let cycles = Parameter::number("cycles", Dimension::NONE, &mut self.cycles);
+        vec![
+            Parameter::vector("displacement", Dimension::LENGTH, &mut self.displacement),
+            Parameter::number("period", Dimension::TIME, &mut self.period).within(Range::Positive),
+            cycles.within(Range::Positive).or(Presence::Optional),
+        ]
+    }
+
+    fn check(&self) -> Result<(), InvalidMotion> {
+        if self.displacement == Vector3::zero() {
+            return Err(InvalidMotion {
+                parameter: "displacement",
+                found: "the displacement is zero".to_owned(),
+                expected: "a motion, or control = \"fixed\"".to_owned(),
+            });
+        }
+        Ok(())
+    }
+
+    fn duration(&self) -> Option<f64> {
+        Some(self.cycles * self.period)
+    }
+
+    fn displacement(&self, _before: Vector3, time: f64, time_step: f64) -> Vector3 {
+        self.displacement_at(time + time_step)
+    }
+
+    fn velocity(&self, time: f64) -> Vector3 {
+        self.velocity_at(time)
+    }
+}
+
 impl Cosine {
     fn phase(&self, time: f64) -> f64 {
         TAU * (time / self.period).min(self.cycles)
-    }
-
-    /// Duration of all cycles [s].
-    pub fn duration(&self) -> f64 {
-        self.cycles * self.period
     }
 
     /// Displacement at `time` [s] after the start [m].
@@ -36,7 +73,8 @@ impl Cosine {
 
     /// Velocity at `time` [s] after the start [m/s].
     pub fn velocity_at(&self, time: f64) -> Vector3 {
-        if time >= self.duration() {
+        // At rest, without the sign that a product with zero would have.
+        if time <= 0.0 || time >= self.cycles * self.period {
             return Vector3::zero();
         }
         self.displacement * (0.5 * TAU / self.period * elementary::sin(self.phase(time)))
