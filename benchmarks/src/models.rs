@@ -103,7 +103,7 @@ mod tests {
         let mass = 4.0 / 3.0 * std::f64::consts::PI * 2500.0 * elementary::powi(0.5e-3, 3);
         let pair = Pair::spheres(mass, mass, 0.5e-3, 0.5e-3);
         let luding = model(LawChoice::Luding, 0.0, ConventionChoice::Own).unwrap();
-        let dashpot = luding.laws.viscosity.largest_coefficient(&pair);
+        let dashpot = luding.laws.viscosity.largest_coefficient(&pair, 500.0);
         assert!((dashpot / (4000.0 * pair.reduced_mass()) - 1.0).abs() < 1e-2);
     }
 }

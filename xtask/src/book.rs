@@ -44,6 +44,7 @@ fn heading(role: Role) -> &'static str {
         Role::Rolling => "Rolling",
         Role::Torsion => "Torsion",
         Role::Conventions => "Conventions",
+        Role::Expected => "What contacts are expected to go through",
     }
 }
 

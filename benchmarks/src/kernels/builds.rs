@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use pulvis_contact::{ContactEnergies, ContactLaws, NormalLaw, Pair, resistance};
+use pulvis_contact::{ContactEnergies, ContactInputs, ContactModel, Pair, levels};
 use pulvis_math::{F64Array, InstructionSet, Kernel, Real, Simd8};
 
 use super::contacts::{Contacts, Store};
-use super::stored::{MemoryColumns, Stored, load_motion, store_vector};
+use super::stored::{Slots, Stored, load_motion, store_vector};
 
 /// The step that springs are advanced by [s].
 const TIME_STEP: f64 = 4e-6;
@@ -38,15 +38,16 @@ impl fmt::Display for Build {
 }
 
 /// The sweeps to be done over contacts that are kept in columns of `S`.
-pub(super) struct Sweep<'a, S, N, const RESISTANCE: u8, const LEDGER: bool> {
-    pub(super) law: N,
-    pub(super) laws: ContactLaws,
+pub(super) struct Sweep<'a, S> {
+    pub(super) model: ContactModel,
     pub(super) contacts: &'a Contacts<S>,
     pub(super) store: &'a mut Store<S>,
     pub(super) sweeps: usize,
+    /// Whether losses are summed up.
+    pub(super) ledger: bool,
 }
 
-impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, f64, N, RESISTANCE, LEDGER> {
+impl Sweep<'_, f64> {
     /// Sweeps over one contact at a time.
     #[inline(never)]
     pub(super) fn one_at_a_time(self) {
@@ -54,9 +55,7 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, f64, N, R
     }
 }
 
-impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel
-    for Sweep<'_, F64Array<8>, N, RESISTANCE, LEDGER>
-{
+impl Kernel for Sweep<'_, F64Array<8>> {
     type Output = ();
     #[inline(always)]
     fn run<R: Simd8>(self) {
@@ -64,19 +63,20 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel
     }
 }
 
-impl<S, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, S, N, RESISTANCE, LEDGER> {
-    /// The law's text as the engine calls it. Forces are stored and losses summed, as in all steps but the last
-    /// of an advance, or else the compiler would leave them out.
+impl<S> Sweep<'_, S> {
+    /// All laws in one text, chosen while it runs: the engine's loops for common contacts are faster by that choice.
+    /// Forces are stored and losses summed, as in all steps but the last of an advance, or else the compiler would
+    /// leave them out.
     #[inline(always)]
     fn with<R: Real>(self)
     where
         S: Stored<R>,
     {
-        let Self { law, laws, contacts, store, sweeps } = self;
-        let places = MemoryColumns::<RESISTANCE>::of::<N>(&laws);
-        let columns = places.count();
+        let Self { model, contacts, store, sweeps, ledger } = self;
+        let slots = *model.memory_layout().slots();
+        let columns = slots.columns();
         let mut energies = ContactEnergies::<R>::default();
-        let with_memory = laws.remembers_normal_motion::<N>();
+        let with_memory = model.laws.remembers_normal_motion(&slots);
         for turn in 0..sweeps {
             let motions = &contacts.motions[turn % 2];
             for (group, stored) in motions.iter().enumerate() {
@@ -86,18 +86,20 @@ impl<S, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, S, N, 
                 let inverse_radii: R = inverse_radius_i.load() + inverse_radius_j.load();
                 let pair = Pair::from_sums(inverse_masses, inverse_radii);
                 let motion = load_motion::<R, S>(stored);
-                let slots = &mut store.memory[group * columns..(group + 1) * columns];
-                let mut memory = places.load::<R, S, N::Memory<R>>(slots);
-                let answer = laws.respond::<R, N, RESISTANCE>(&law, &pair, &motion, TIME_STEP, &mut memory);
-                places.store(&memory, slots);
+                let mut memory = Slots(&mut store.memory[group * columns..(group + 1) * columns]);
+                let inputs = ContactInputs { pair: &pair, motion: &motion, time_step: TIME_STEP };
+                let answer = model.laws.respond::<R, _, _, { levels::ALL }>(
+                    &model.normal,
+                    &slots,
+                    inputs,
+                    &mut memory,
+                );
                 let [force, torque_i, torque_j] = &mut store.forces_and_torques[group];
                 store_vector(force, answer.force);
-                if RESISTANCE != resistance::NONE {
-                    store_vector(torque_i, answer.torque_i);
-                    store_vector(torque_j, answer.torque_j);
-                }
-                if LEDGER {
-                    energies.add_dissipated::<RESISTANCE>(&answer.energies, with_memory);
+                store_vector(torque_i, answer.torque_i);
+                store_vector(torque_j, answer.torque_j);
+                if ledger {
+                    energies.add_dissipated::<{ levels::ALL }>(&answer.energies, with_memory);
                 }
             }
         }
@@ -108,8 +110,6 @@ impl<S, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Sweep<'_, S, N, 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-    use pulvis_contact::NormalLawVisitor;
 
     use super::*;
     use crate::kernels::cases::cases;
@@ -125,34 +125,26 @@ mod tests {
         (0..COUNT).flat_map(contact).map(f64::to_bits).collect()
     }
 
-    struct EveryBuild(ContactLaws);
+    fn swept<S: Real>(model: ContactModel, run: impl Fn(Sweep<'_, S>)) -> Vec<u64> {
+        let contacts = Contacts::<S>::new();
+        assert_eq!(contacts.count(), COUNT);
+        let mut store = Store::new(&contacts, &model);
+        run(Sweep { model, contacts: &contacts, store: &mut store, sweeps: 5, ledger: true });
+        bits(&store)
+    }
 
-    impl NormalLawVisitor for EveryBuild {
-        type Output = Vec<Vec<u64>>;
-        fn visit<N: NormalLaw>(self, law: N) -> Vec<Vec<u64>> {
-            fn swept<S: Real, N: NormalLaw>(
-                (law, laws): (N, ContactLaws),
-                run: impl Fn(Sweep<'_, S, N, { resistance::ALL }, true>),
-            ) -> Vec<u64> {
-                let contacts = Contacts::<S>::new();
-                assert_eq!(contacts.count(), COUNT);
-                let mut store = Store::new::<N, { resistance::ALL }>(&contacts, &laws);
-                run(Sweep { law, laws, contacts: &contacts, store: &mut store, sweeps: 5 });
-                bits(&store)
-            }
-            let model = (law, self.0);
-            let run = |build| match build {
-                Build::Scalar => swept(model, |sweep| sweep.one_at_a_time()),
-                Build::Eight(set) => swept(model, |sweep| set.run(sweep)),
-            };
-            Build::available().into_iter().map(run).collect()
-        }
+    fn by_every_build(model: ContactModel) -> impl Iterator<Item = Vec<u64>> {
+        let run = move |build| match build {
+            Build::Scalar => swept(model, |sweep| sweep.one_at_a_time()),
+            Build::Eight(set) => swept(model, |sweep| set.run(sweep)),
+        };
+        Build::available().into_iter().map(run)
     }
 
     #[test]
     fn every_build_computes_the_same_forces_and_torques() {
         for case in cases().unwrap() {
-            let mut answers = case.model.normal.accept(EveryBuild(case.model.laws)).into_iter();
+            let mut answers = by_every_build(case.model);
             let scalar = answers.next().unwrap();
             assert!(scalar.iter().any(|&bits| bits != 0), "{}", case.name);
             assert!(answers.all(|eight| eight == scalar), "{}", case.name);

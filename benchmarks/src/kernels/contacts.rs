@@ -2,10 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use pulvis_contact::{ContactEnergies, ContactKinematics, ContactLaws, NormalLaw};
+use pulvis_contact::{ContactEnergies, ContactKinematics, ContactModel};
 use pulvis_math::{Real, Vector3, elementary};
-
-use super::stored::MemoryColumns;
 
 /// Contacts in all: what they need stays in the first-level cache.
 const COUNT: usize = 64;
@@ -80,12 +78,9 @@ impl<S: Real> Contacts<S> {
 
 impl<S: Real> Store<S> {
     /// Virgin contacts.
-    pub(super) fn new<N: NormalLaw, const RESISTANCE: u8>(
-        contacts: &Contacts<S>,
-        laws: &ContactLaws,
-    ) -> Self {
+    pub(super) fn new(contacts: &Contacts<S>, model: &ContactModel) -> Self {
         let groups = contacts.inverses.len();
-        let columns = MemoryColumns::<RESISTANCE>::of::<N>(laws).count();
+        let columns = model.memory_layout().columns();
         Self {
             memory: vec![S::zero(); groups * columns],
             forces_and_torques: vec![Default::default(); groups],

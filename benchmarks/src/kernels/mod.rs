@@ -7,7 +7,7 @@ mod stored;
 
 use std::time::Instant;
 
-use pulvis_contact::{ContactLaws, NormalLaw, NormalLawVisitor, resistance};
+use pulvis_contact::ContactModel;
 use pulvis_math::{F64Array, Real};
 
 use crate::failure::Failure;
@@ -36,8 +36,7 @@ pub(crate) fn run(only: &str) -> Result<(), Failure> {
         for ledger in [true, false] {
             print!("{:44}{:>8}", case.name, if ledger { "on" } else { "off" });
             for &build in &builds {
-                let laws = case.model.laws;
-                let cost = case.model.normal.accept(Measured { laws, build, ledger });
+                let cost = Measured { model: case.model, build, ledger }.cost();
                 let ticks = cost.ticks.map_or(String::new(), |ticks| format!(" ({ticks:6.1})"));
                 print!("{:>20}", format!("{:.2}{ticks}", cost.nanoseconds));
             }
@@ -57,46 +56,26 @@ struct Cost {
 }
 
 struct Measured {
-    laws: ContactLaws,
+    model: ContactModel,
     build: Build,
     ledger: bool,
 }
 
-impl NormalLawVisitor for Measured {
-    type Output = Cost;
-    fn visit<N: NormalLaw>(self, law: N) -> Cost {
-        match (self.laws.resistance_level(), self.ledger) {
-            (resistance::NONE, true) => self.of::<N, { resistance::NONE }, true>(law),
-            (resistance::NONE, false) => self.of::<N, { resistance::NONE }, false>(law),
-            (resistance::SLIDING, true) => self.of::<N, { resistance::SLIDING }, true>(law),
-            (resistance::SLIDING, false) => self.of::<N, { resistance::SLIDING }, false>(law),
-            (_, true) => self.of::<N, { resistance::ALL }, true>(law),
-            (_, false) => self.of::<N, { resistance::ALL }, false>(law),
-        }
-    }
-}
-
 impl Measured {
-    fn of<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(&self, law: N) -> Cost {
+    fn cost(&self) -> Cost {
         match self.build {
-            Build::Scalar => self.run_by::<f64, N, RESISTANCE, LEDGER>(law, |sweep| sweep.one_at_a_time()),
-            Build::Eight(set) => {
-                self.run_by::<F64Array<8>, N, RESISTANCE, LEDGER>(law, |sweep| set.run(sweep))
-            }
+            Build::Scalar => self.run_by::<f64>(|sweep| sweep.one_at_a_time()),
+            Build::Eight(set) => self.run_by::<F64Array<8>>(|sweep| set.run(sweep)),
         }
     }
 
     /// The cost of a contact, all contacts being kept in columns of `S` and sweeps done by `run`.
-    fn run_by<S: Real, N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(
-        &self,
-        law: N,
-        run: impl Fn(Sweep<'_, S, N, RESISTANCE, LEDGER>),
-    ) -> Cost {
-        let laws = self.laws;
+    fn run_by<S: Real>(&self, run: impl Fn(Sweep<'_, S>)) -> Cost {
+        let (model, ledger) = (self.model, self.ledger);
         let contacts = Contacts::<S>::new();
-        let mut store = Store::new::<N, RESISTANCE>(&contacts, &laws);
+        let mut store = Store::new(&contacts, &model);
         let mut pass = || {
-            run(Sweep { law, laws, contacts: &contacts, store: &mut store, sweeps: SWEEPS });
+            run(Sweep { model, contacts: &contacts, store: &mut store, sweeps: SWEEPS, ledger });
         };
         pass();
         let fastest = (0..PASSES).map(|_| timed(&mut pass)).min_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,6 +1,6 @@
 //! Numbers in memory, and contact memory in columns of them.
 
-use pulvis_contact::{ContactKinematics, ContactLaws, ContactMemory, Memory, NormalLaw, resistance};
+use pulvis_contact::{Columns, ContactKinematics};
 use pulvis_math::{F64Array, Real, Simd8, Vector3};
 
 /// What values of `R` are loaded from and stored to: one number, or eight beside each other.
@@ -60,71 +60,16 @@ pub(super) fn load_motion<R: Real, S: Stored<R>>(motion: &ContactKinematics<S>) 
     }
 }
 
-/// The columns of contact memory that models of the level `RESISTANCE` use: those of the normal law, then
-/// touch, the springs of sliding and rolling, and that of torsion.
-#[derive(Clone, Copy)]
-pub(super) struct MemoryColumns<const RESISTANCE: u8> {
-    normal: usize,
-    touched: bool,
-}
+/// The columns of one group of contacts in memory.
+pub(super) struct Slots<'a, S>(pub(super) &'a mut [S]);
 
-impl<const RESISTANCE: u8> MemoryColumns<RESISTANCE> {
-    pub(super) fn of<N: NormalLaw>(laws: &ContactLaws) -> Self {
-        let normal = <N::Memory<f64> as Memory<f64>>::COLUMNS;
-        Self { normal, touched: laws.noncontact.remembers_touch() }
-    }
-
-    /// Number of columns.
-    pub(super) fn count(self) -> usize {
-        self.normal + 8
-    }
-
-    // Closures are for the normal law's columns alone, as in the engine: what is in them is inlined, but
-    // not by force.
+impl<R: Real, S: Stored<R>> Columns<R> for Slots<'_, S> {
     #[inline(always)]
-    pub(super) fn load<R: Real, S: Stored<R>, M: Memory<R>>(self, columns: &[S]) -> ContactMemory<R, M> {
-        let (normal, others) = columns.split_at(self.normal);
-        let mut memory = ContactMemory {
-            normal: M::load(|column| normal[column].load()),
-            touched: R::zero(),
-            sliding: Vector3::zero(),
-            rolling: Vector3::zero(),
-            torsion: R::zero(),
-        };
-        if self.touched {
-            memory.touched = others[0].load();
-        }
-        if RESISTANCE >= resistance::SLIDING {
-            memory.sliding = Vector3::new(others[1].load(), others[2].load(), others[3].load());
-        }
-        if RESISTANCE >= resistance::ALL {
-            memory.rolling = Vector3::new(others[4].load(), others[5].load(), others[6].load());
-            memory.torsion = others[7].load();
-        }
-        memory
+    fn get(&self, column: usize) -> R {
+        self.0[column].load()
     }
-
     #[inline(always)]
-    pub(super) fn store<R: Real, S: Stored<R>, M: Memory<R>>(
-        self,
-        memory: &ContactMemory<R, M>,
-        columns: &mut [S],
-    ) {
-        let (normal, others) = columns.split_at_mut(self.normal);
-        memory.normal.store(|column, value| normal[column].store(value));
-        if self.touched {
-            others[0].store(memory.touched);
-        }
-        if RESISTANCE >= resistance::SLIDING {
-            others[1].store(memory.sliding.x);
-            others[2].store(memory.sliding.y);
-            others[3].store(memory.sliding.z);
-        }
-        if RESISTANCE >= resistance::ALL {
-            others[4].store(memory.rolling.x);
-            others[5].store(memory.rolling.y);
-            others[6].store(memory.rolling.z);
-            others[7].store(memory.torsion);
-        }
+    fn set(&mut self, column: usize, value: R) {
+        self.0[column].store(value);
     }
 }

@@ -39,6 +39,18 @@ pub enum RollingLever {
     Reduced,
 }
 
+/// What the dashpot of a spring-slider sees while the contact slides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SlipDashpot {
+    /// The rate of the spring: the slider stands in series with spring and dashpot. Passive for every dashpot, speed
+    /// and time step.
+    #[default]
+    Series,
+    /// The whole sliding speed, ξ = −(f + γ v)/k (Luding 2008, eq. 20, as printed). Where γ v exceeds the Coulomb
+    /// limit, the spring is stretched against the motion and energy comes from nothing.
+    Printed,
+}
+
 /// All choices of one contact. The default is what Luding 2008 is read to say.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Conventions {
@@ -50,6 +62,8 @@ pub struct Conventions {
     pub rolling_lever: RollingLever,
     /// How springs follow the contact when it turns in space.
     pub spring_rotation: SpringRotation,
+    /// What the dashpot of a spring-slider sees while the contact slides.
+    pub slip_dashpot: SlipDashpot,
 }
 
 impl Conventions {
@@ -140,6 +154,22 @@ impl Law for Conventions {
                 "rescale",
                 "how sliding and rolling springs follow the contact when it turns",
             ),
+            Parameter::choice(
+                "slip_dashpot",
+                "",
+                &[
+                    Choice {
+                        name: "series",
+                        meaning: "the rate of the spring: slider in series with spring and dashpot, passive",
+                    },
+                    Choice {
+                        name: "printed",
+                        meaning: "the sliding speed, ξ = −(f + γ v)/k (Luding 2008, eq. 20); creates energy where γ v exceeds the limit",
+                    },
+                ],
+                "series",
+                "what dashpots against sliding, rolling and torsion see while the contact slips",
+            ),
         ],
         memory: &[],
         closed_form: "rigid rotation of a stuck pair changes neither spring nor energy (conformance suite)",
@@ -166,6 +196,10 @@ impl Law for Conventions {
                 "twist" => SpringRotation::Twist,
                 "rate" => SpringRotation::Rate,
                 _ => SpringRotation::Rescale,
+            },
+            slip_dashpot: match values.choice("slip_dashpot")? {
+                "printed" => SlipDashpot::Printed,
+                _ => SlipDashpot::Series,
             },
         })
     }

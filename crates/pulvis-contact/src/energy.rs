@@ -4,7 +4,7 @@ use std::ops::AddAssign;
 
 use pulvis_math::{F64Array, Real, Simd8};
 
-use crate::resistance;
+use crate::levels;
 
 macro_rules! contact_energies {
     (
@@ -74,7 +74,7 @@ macro_rules! each_account {
 }
 
 impl<R: Real> ContactEnergies<R> {
-    /// Adds what was lost by contacts of a level of [resistance], and the power of their dashpots; what is
+    /// Adds what was lost by contacts of a [level](levels) of resistance, and the power of their dashpots; what is
     /// held stays. Along the normal nothing is lost unless something is
     /// [remembered](crate::ContactLaws::remembers_normal_motion) (`with_memory`).
     #[inline(always)]
@@ -84,10 +84,10 @@ impl<R: Real> ContactEnergies<R> {
             self.dissipated_plastic += other.dissipated_plastic;
             self.dissipated_adhesive += other.dissipated_adhesive;
         }
-        if RESISTANCE >= resistance::SLIDING {
+        if RESISTANCE >= levels::SLIDING {
             self.dissipated_sliding += other.dissipated_sliding;
         }
-        if RESISTANCE >= resistance::ALL {
+        if RESISTANCE >= levels::ALL {
             self.dissipated_rolling += other.dissipated_rolling;
             self.dissipated_torsion += other.dissipated_torsion;
         }

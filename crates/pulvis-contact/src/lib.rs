@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use pulvis_contact::catalogue::Values;
-//! use pulvis_contact::{Normal, NormalLaw, Pair};
+//! use pulvis_contact::{Normal, NormalLaw, NormalMotion, Pair};
 //!
 //! let values = Values::new().with("k1", 100.0).with("kp", 500.0).with("kc", 100.0).with("phi_f", 0.05);
 //! let law = Normal::build("luding", &values).expect("the law exists").expect("valid parameters");
@@ -15,26 +15,37 @@
 //! let pair = Pair::spheres(1e-6, 1e-6, 1e-3, 1e-3);
 //! let mut memory = Default::default();
 //! // Virgin loading follows k1.
-//! assert!((luding.respond(&pair, 1e-6, &mut memory).force - 1e-4).abs() < 1e-18);
+//! let motion = NormalMotion::at_rest(&pair, 1e-6);
+//! assert!((luding.respond(&motion, &mut memory).force - 1e-4).abs() < 1e-18);
 //! ```
 
 pub mod catalogue;
 pub mod conventions;
 mod energy;
+mod expected;
 pub mod friction;
+mod kinematics;
+pub mod levels;
+pub mod memory;
 mod model;
 pub mod noncontact;
 pub mod normal;
 mod pair;
-pub mod resistance;
+mod resistance;
+mod response;
 pub mod theory;
+mod time_scales;
 pub mod viscosity;
 
 pub use conventions::Conventions;
 pub use energy::ContactEnergies;
-pub use friction::SpringSlider;
-pub use model::{ContactKinematics, ContactLaws, ContactMemory, ContactModel, ContactResponse};
+pub use expected::ExpectedLoading;
+pub use friction::{Friction, Mindlin, SpringSlider};
+pub use kinematics::{ContactInputs, ContactKinematics, NormalMotion};
+pub use memory::{Columns, Memory, MemoryLayout, MemorySlots};
+pub use model::{ContactLaws, ContactModel};
 pub use noncontact::NonContact;
-pub use normal::{Linear, Luding, Memory, Normal, NormalLaw, NormalLawVisitor, NormalResponse};
+pub use normal::{Hertz, Jkr, Linear, Luding, Normal, NormalLaw, NormalLawVisitor, NormalResponse};
 pub use pair::Pair;
+pub use response::ContactResponse;
 pub use viscosity::Viscosity;

@@ -1,24 +1,18 @@
 //! How a contact's springs against sliding, rolling and torsion follow the two bodies.
-//!
-//! The constants are the levels of resistance for which [`ContactLaws::respond`] is compiled; each
-//! holds the one before.
-//!
-//! [`ContactLaws::respond`]: crate::ContactLaws::respond
 
 use pulvis_math::{Mask, Real, Vector3};
 
 use crate::conventions::{Conventions, LeverArm, RollingLever};
 use crate::energy::ContactEnergies;
-use crate::friction::{FrictionResponse, SpringMotion, SpringRotation, SpringSlider, rescaled, twisted};
-use crate::model::{ContactKinematics, ContactResponse};
+use crate::friction::{
+    Along, Friction, FrictionLaw, FrictionResponse, FrictionVisitor, SpringMotion, SpringRotation, Tangent,
+    rescaled, twisted,
+};
+use crate::kinematics::{ContactInputs, ContactKinematics};
+use crate::memory::{self, Columns};
+use crate::normal::{NormalResponse, NormalSource};
 use crate::pair::Pair;
-
-/// No resistance at all.
-pub const NONE: u8 = 0;
-/// Resistance against sliding, if the contact has it.
-pub const SLIDING: u8 = 1;
-/// Resistance against sliding, rolling and torsion, whatever of them the contact has.
-pub const ALL: u8 = 2;
+use crate::response::ContactResponse;
 
 /// One step of a contact as its springs see it. Luding 2008, section 2.3-2.4.
 ///
@@ -29,7 +23,8 @@ pub(crate) struct Resistance<'a, R: Real> {
     conventions: &'a Conventions,
     pair: &'a Pair<R>,
     motion: &'a ContactKinematics<R>,
-    touching: R::Mask,
+    in_contact: R::Mask,
+    contact_radius: R,
     friction_reference: R,
     overlap: R,
     overlap_mid: R,
@@ -43,37 +38,38 @@ pub(crate) struct Resistance<'a, R: Real> {
 }
 
 impl<'a, R: Real> Resistance<'a, R> {
-    /// The step of `time_step` [s] that led to `motion`; friction refers to the normal force
-    /// `friction_reference` [N].
+    /// The step that led to `inputs`, in which the normal law gave the answer `normal`; friction refers to the normal
+    /// force `friction_reference` [N].
     #[inline(always)]
     pub(crate) fn new(
         conventions: &'a Conventions,
-        pair: &'a Pair<R>,
-        motion: &'a ContactKinematics<R>,
+        inputs: ContactInputs<'a, R>,
+        normal: &NormalResponse<R>,
         friction_reference: R,
-        time_step: f64,
     ) -> Self {
-        let touching = motion.overlap.gt(R::zero());
-        let overlap = motion.overlap.keep_where(touching);
+        let ContactInputs { pair, motion, time_step } = inputs;
+        let in_contact = normal.in_contact;
+        let overlap = motion.overlap.keep_where(in_contact);
         let dt = R::splat(time_step);
         let opening = motion.velocity_mid.dot(motion.normal);
         let sideways = motion.velocity_mid - motion.normal * opening;
         // A contact that began within the step has moved for a part of the step only. Few do.
         let approach = opening * R::splat(-time_step);
-        let began = touching & overlap.lt(approach);
+        let began = in_contact & !normal.was_in_contact;
         let mut elapsed = dt;
         if began.any() {
-            elapsed = R::select(began, dt * (overlap / approach), dt);
+            elapsed = R::select(began & approach.gt(R::zero()), dt * (overlap / approach), dt);
         }
-        let elapsed = elapsed.keep_where(touching);
+        let elapsed = elapsed.keep_where(in_contact);
         let half = R::splat(0.5) * elapsed;
         let half_turn = half * motion.inverse_distance;
         Self {
             conventions,
             pair,
             motion,
-            touching,
-            friction_reference: friction_reference.keep_where(touching),
+            in_contact,
+            contact_radius: normal.contact_radius,
+            friction_reference: friction_reference.keep_where(in_contact),
             overlap,
             overlap_mid: overlap + half * opening,
             normal_mid: motion.normal - sideways * half_turn,
@@ -84,26 +80,28 @@ impl<'a, R: Real> Resistance<'a, R> {
         }
     }
 
-    /// Adds the force and the torques of the sliding spring.
+    /// Adds the force and the torques of the law against sliding, whose memory begins at the column `start`.
     #[inline(always)]
-    pub(crate) fn slide(
+    pub(crate) fn slide<N: NormalSource<R>, C: Columns<R> + ?Sized>(
         &self,
-        slider: &SpringSlider,
-        spring: &mut Vector3<R>,
+        law: &Friction,
+        start: usize,
+        columns: &mut C,
         response: &mut ContactResponse<R>,
     ) {
         let (motion, normal) = (self.motion, self.motion.normal);
         let (arm_i, arm_j) = self.arms(self.overlap);
         let (mid_i, mid_j) = self.arms(self.overlap_mid);
         // The velocity at the time of the positions is for the dashpot alone.
-        let mut velocity = Vector3::zero();
-        if slider.dashpot != 0.0 {
-            let angular_velocities = motion.angular_velocity_i * arm_i + motion.angular_velocity_j * arm_j;
-            velocity = motion.velocity.tangential_to(normal) + normal.cross(angular_velocities);
-        }
+        let velocity = || {
+            let surface = motion.angular_velocity_i * arm_i + motion.angular_velocity_j * arm_j;
+            motion.velocity.tangential_to(normal) + normal.cross(surface)
+        };
+        let velocity = self.where_damped(law, velocity);
         let surface_mid = motion.angular_velocity_i_mid * mid_i + motion.angular_velocity_j_mid * mid_j;
         let velocity_mid = self.sideways_mid + self.normal_mid.cross(surface_mid);
-        let answer = self.stretch(slider, velocity, velocity_mid, spring);
+        let stretch = Stretch { step: self, velocity, velocity_mid, start, columns };
+        let Some(answer) = ask::<R, N, _>(law, stretch) else { return };
         let moment = answer.force.cross(normal);
         response.force += answer.force;
         // Sliding comes first: there are no other torques yet.
@@ -115,86 +113,68 @@ impl<'a, R: Real> Resistance<'a, R> {
         energies.viscous_power += answer.viscous_power;
     }
 
-    /// Adds the torques of the rolling spring.
+    /// Adds the torques of the law against rolling.
     #[inline(always)]
-    pub(crate) fn roll(
+    pub(crate) fn roll<N: NormalSource<R>, C: Columns<R> + ?Sized>(
         &self,
-        slider: &SpringSlider,
+        law: &Friction,
         (lever, lever_mid): (R, R),
-        spring: &mut Vector3<R>,
+        start: usize,
+        columns: &mut C,
         response: &mut ContactResponse<R>,
     ) {
         let (motion, normal) = (self.motion, self.motion.normal);
-        let mut velocity = Vector3::zero();
-        if slider.dashpot != 0.0 {
-            velocity = normal.cross(motion.angular_velocity_i - motion.angular_velocity_j) * -lever;
-        }
-        let angular_velocity_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
-        let velocity_mid = self.normal_mid.cross(angular_velocity_mid) * -lever_mid;
-        let answer = self.stretch(slider, velocity, velocity_mid, spring);
+        let velocity = self.where_damped(law, || {
+            normal.cross(motion.angular_velocity_i - motion.angular_velocity_j) * -lever
+        });
+        let rolling_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
+        let velocity_mid = self.normal_mid.cross(rolling_mid) * -lever_mid;
+        let stretch = Stretch { step: self, velocity, velocity_mid, start, columns };
+        let Some(answer) = ask::<R, N, _>(law, stretch) else { return };
         let energies = &mut response.energies;
         energies.elastic_rolling = answer.stored_energy;
         energies.dissipated_rolling = answer.dissipated_slip;
         turn(normal.cross(answer.force) * lever, answer.viscous_power, response);
     }
 
-    /// Adds the torques of the torsion spring.
+    /// Adds the torques of the law against torsion.
     #[inline(always)]
-    pub(crate) fn twist(
+    pub(crate) fn twist<N: NormalSource<R>, C: Columns<R> + ?Sized>(
         &self,
-        slider: &SpringSlider,
+        law: &Friction,
         (lever, lever_mid): (R, R),
-        spring: &mut R,
+        start: usize,
+        columns: &mut C,
         response: &mut ContactResponse<R>,
     ) {
         let (motion, normal) = (self.motion, self.motion.normal);
         let mut velocity = R::zero();
-        if slider.dashpot != 0.0 {
+        if law.dashpot() != 0.0 {
             velocity = normal.dot(motion.angular_velocity_i - motion.angular_velocity_j) * lever;
         }
-        let angular_velocity_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
-        let velocity_mid = self.normal_mid.dot(angular_velocity_mid) * lever_mid;
-        let before = *spring;
-        let (mut answer, slips) = slider.respond_along(
-            &SpringMotion {
-                velocity: velocity.keep_where(self.touching),
-                displacement: velocity_mid * self.elapsed,
-                friction_reference: self.friction_reference,
-            },
-            spring,
-        );
-        if self.works_while_open(slips) {
-            let half = R::splat(0.5 * slider.stiffness);
-            answer.dissipated_slip += half * (before + *spring) * (velocity_mid * self.missed);
-        }
+        let twisting_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
+        let velocity_mid = self.normal_mid.dot(twisting_mid) * lever_mid;
+        let twist = Twist { step: self, velocity, velocity_mid, start, columns };
+        let Some(answer) = ask::<R, N, _>(law, twist) else { return };
         let energies: &mut ContactEnergies<R> = &mut response.energies;
         energies.elastic_torsion = answer.stored_energy;
         energies.dissipated_torsion = answer.dissipated_slip;
-        turn(normal * (lever * answer.force), answer.viscous_power, response);
+        turn(normal * (lever * answer.force.0), answer.viscous_power, response);
     }
 
-    /// Carries a spring of the tangent plane along and advances it. What the spring loses on the
-    /// way by convention (`project`, `rate`) is booked as slip; rescaled springs lose nothing.
-    ///
-    /// So is the work of the spring's force in the part of the step in which the contact was open: in
-    /// both half kicks the force works all the time. It is of second order without a dashpot. But a
-    /// sliding contact's dashpot is held back by its spring (see [`SpringSlider`]), and what the one is
-    /// said to lose at touch and at parting, the other must be said to give.
+    /// A velocity that only dashpots look at.
     #[inline(always)]
-    fn stretch(
-        &self,
-        slider: &SpringSlider,
-        velocity: Vector3<R>,
-        velocity_mid: Vector3<R>,
-        spring: &mut Vector3<R>,
-    ) -> FrictionResponse<Vector3<R>, R> {
+    fn where_damped(&self, law: &Friction, velocity: impl FnOnce() -> Vector3<R>) -> Vector3<R> {
+        if law.dashpot() != 0.0 { velocity() } else { Vector3::zero() }
+    }
+
+    /// A vector of the tangent plane turned with the contact, and a displacement [m] as seen from there.
+    #[inline(always)]
+    fn carried(&self, before: Vector3<R>, displacement: Vector3<R>) -> (Vector3<R>, Vector3<R>) {
         let (motion, normal) = (self.motion, self.motion.normal);
-        let rotation = self.conventions.spring_rotation;
-        let before = *spring;
-        let mut step = velocity_mid * self.elapsed;
-        let carried = match rotation {
-            SpringRotation::Rescale => rescaled(before, normal),
-            SpringRotation::Project => before.tangential_to(normal),
+        match self.conventions.spring_rotation {
+            SpringRotation::Rescale => (rescaled(before, normal), displacement),
+            SpringRotation::Project => (before.tangential_to(normal), displacement),
             SpringRotation::Twist => {
                 let half = R::splat(0.5);
                 let turned = self.sideways_mid * (motion.inverse_distance * self.elapsed);
@@ -202,31 +182,34 @@ impl<'a, R: Real> Resistance<'a, R> {
                     * (motion.angular_velocity_i_mid + motion.angular_velocity_j_mid).dot(normal)
                     * self.elapsed;
                 // The displacement was made, on average, half a twist ago.
-                step += normal.cross(step) * (half * twist);
-                twisted(before, normal, turned, twist)
+                let seen = displacement + normal.cross(displacement) * (half * twist);
+                (twisted(before, normal, turned, twist), seen)
             }
             SpringRotation::Rate => {
                 let along = before.dot(motion.velocity_mid) * (motion.inverse_distance * self.elapsed);
-                before - normal * along
+                (before - normal * along, displacement)
             }
-        };
-        *spring = carried;
-        let (mut answer, slips) = slider.respond(
-            &SpringMotion {
-                velocity: velocity.keep_where(self.touching),
-                displacement: step.tangential_to(normal),
-                friction_reference: self.friction_reference,
-            },
-            spring,
-        );
-        let half = R::splat(0.5 * slider.stiffness);
-        if self.works_while_open(slips) {
-            answer.dissipated_slip += half * (carried + *spring).dot(velocity_mid * self.missed);
         }
-        if matches!(rotation, SpringRotation::Project | SpringRotation::Rate) {
-            answer.dissipated_slip += half * (before.norm_squared() - carried.norm_squared());
+    }
+
+    /// The motion that springs follow, with the velocity that dashpots see.
+    #[inline(always)]
+    fn spring_motion<T: Tangent<R>>(
+        &self,
+        velocity: T,
+        velocity_mid: T,
+        displacement: T,
+    ) -> SpringMotion<T, R> {
+        SpringMotion {
+            velocity: T::select(self.in_contact, velocity, T::zero()),
+            velocity_mid,
+            displacement,
+            elapsed: self.elapsed,
+            in_contact: self.in_contact,
+            friction_reference: self.friction_reference,
+            contact_radius: self.contact_radius,
+            slip_dashpot: self.conventions.slip_dashpot,
         }
-        answer
     }
 
     /// Whether any spring may have worked in a part of the step in which its contact was open: where it began in this
@@ -272,10 +255,87 @@ impl<'a, R: Real> Resistance<'a, R> {
     }
 }
 
+/// Hands a law to the visitor; in loops for common contacts only the common one.
+#[inline(always)]
+fn ask<R: Real, N: NormalSource<R>, V: FrictionVisitor>(law: &Friction, visitor: V) -> Option<V::Output> {
+    if N::COMMON { law.accept_common(visitor) } else { Some(law.accept(visitor)) }
+}
+
 /// Adds a torque on i, its opposite on j, and the power of the dashpot.
 #[inline(always)]
 fn turn<R: Real>(torque: Vector3<R>, viscous_power: R, response: &mut ContactResponse<R>) {
     response.torque_i += torque;
     response.torque_j -= torque;
     response.energies.viscous_power += viscous_power;
+}
+
+/// A spring of the tangent plane on its way through a step.
+struct Stretch<'a, R: Real, C: ?Sized> {
+    step: &'a Resistance<'a, R>,
+    velocity: Vector3<R>,
+    velocity_mid: Vector3<R>,
+    start: usize,
+    columns: &'a mut C,
+}
+
+impl<R: Real, C: Columns<R> + ?Sized> FrictionVisitor for Stretch<'_, R, C> {
+    type Output = FrictionResponse<Vector3<R>, R>;
+
+    /// Carries the spring along and advances it. What it loses on the way by convention (`project`, `rate`) is booked
+    /// as slip; rescaled springs lose nothing.
+    ///
+    /// So is the work of the spring's force in the part of the step in which the contact was open: in both half kicks
+    /// the force works all the time. It is of second order without a dashpot.
+    #[inline(always)]
+    fn visit<F: FrictionLaw>(self, law: &F) -> Self::Output {
+        let Self { step, velocity, velocity_mid, start, columns } = self;
+        let before: Vector3<R> = memory::load_vector(columns, start);
+        let mut scalars: F::Scalars<R> = memory::load(columns, start + 3);
+        let (carried, displacement) = step.carried(before, velocity_mid * step.elapsed);
+        let mut spring = carried;
+        let normal = step.motion.normal;
+        let motion = step.spring_motion(velocity, velocity_mid, displacement.tangential_to(normal));
+        let (mut answer, slips) = law.respond(&motion, &mut spring, &mut scalars);
+        if step.works_while_open(slips) {
+            let mean = law.elastic_force((carried + spring) * R::splat(0.5));
+            answer.dissipated_slip += mean.dot(velocity_mid * step.missed);
+        }
+        if matches!(step.conventions.spring_rotation, SpringRotation::Project | SpringRotation::Rate) {
+            answer.dissipated_slip += law.lost_by_shortening(before.norm_squared(), carried.norm_squared());
+        }
+        memory::store_vector(spring, columns, start);
+        memory::store(&scalars, columns, start + 3);
+        answer
+    }
+}
+
+/// A spring along the line of centres on its way through a step.
+struct Twist<'a, R: Real, C: ?Sized> {
+    step: &'a Resistance<'a, R>,
+    velocity: R,
+    velocity_mid: R,
+    start: usize,
+    columns: &'a mut C,
+}
+
+impl<R: Real, C: Columns<R> + ?Sized> FrictionVisitor for Twist<'_, R, C> {
+    type Output = FrictionResponse<Along<R>, R>;
+
+    #[inline(always)]
+    fn visit<F: FrictionLaw>(self, law: &F) -> Self::Output {
+        let Self { step, velocity, velocity_mid, start, columns } = self;
+        let before = Along(columns.get(start));
+        let mut scalars: F::Scalars<R> = memory::load(columns, start + 1);
+        let displacement = Along(velocity_mid * step.elapsed);
+        let motion = step.spring_motion(Along(velocity), Along(velocity_mid), displacement);
+        let mut spring = before;
+        let (mut answer, slips) = law.respond(&motion, &mut spring, &mut scalars);
+        if step.works_while_open(slips) {
+            let mean = law.elastic_force((before + spring).scaled(R::splat(0.5)));
+            answer.dissipated_slip += mean.0 * (velocity_mid * step.missed);
+        }
+        columns.set(start, spring.0);
+        memory::store(&scalars, columns, start + 1);
+        answer
+    }
 }

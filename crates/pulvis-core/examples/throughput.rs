@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use pulvis_contact::normal::Interpolation;
 use pulvis_contact::viscosity::{Constant, Viscosity};
-use pulvis_contact::{ContactModel, Linear, Luding, SpringSlider};
+use pulvis_contact::{ContactModel, Friction, Linear, Luding, SpringSlider};
 use pulvis_core::{Background, Domain, Interactions, Particle, Setup, Simulation, shortest_contact};
 use pulvis_math::{Vector3, elementary};
 use pulvis_packing::{Lattice, gaussian_vector, random_stream};
@@ -18,9 +18,9 @@ use pulvis_packing::{Lattice, gaussian_vector, random_stream};
 const SIDE: usize = 20;
 const RADIUS: f64 = 0.5e-3;
 
-fn slider(stiffness: f64, coefficient: f64) -> SpringSlider {
+fn slider(stiffness: f64, coefficient: f64) -> Friction {
     let (dynamic_coefficient, static_coefficient) = (coefficient, coefficient);
-    SpringSlider { stiffness, dashpot: 4e-4, dynamic_coefficient, static_coefficient }
+    SpringSlider { stiffness, dashpot: 4e-4, dynamic_coefficient, static_coefficient }.into()
 }
 
 fn model(law: &str) -> ContactModel {

@@ -86,7 +86,8 @@ fn state(simulation: &Simulation) -> Bits {
             ContactPartner::Particle(id) => u64::from(id),
             ContactPartner::Wall(place) => !(place as u64),
         });
-        contacts.extend([contact.overlap, contact.normal_force, contact.memory].map(f64::to_bits));
+        contacts.extend([contact.overlap, contact.normal_force].map(f64::to_bits));
+        contacts.extend(contact.memory.iter().map(|column| column.to_bits()));
         contacts.extend(bits_of([contact.force].into_iter()));
     });
     bits.push(("contacts".to_owned(), contacts));

@@ -1,12 +1,15 @@
 //! All laws of one contact, read as the catalogue describes them.
 
 use crate::context::Reported;
+use crate::material::MaterialProperties;
 use crate::parameters::{read_parameters, refuse_parameter};
 use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::Name;
-use pulvis_contact::catalogue::{InvalidParameter, Law, LawEntry, Role, Values};
-use pulvis_contact::{ContactLaws, ContactModel, Conventions, NonContact, Normal, Viscosity, friction};
+use pulvis_contact::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Role, Value, Values};
+use pulvis_contact::{
+    ContactLaws, ContactModel, Conventions, ExpectedLoading, NonContact, Normal, Viscosity, friction,
+};
 
 /// A law by its name in the catalogue, with its parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,20 +36,26 @@ pub struct NamedContact {
 /// # Errors
 /// Laws or parameters are missing, unknown, out of range or contradict each other.
 pub fn read_contact_model(table: TableReader<'_>) -> Result<ContactModel, Reported> {
-    read_contact(table).map(|contact| contact.model)
+    read_contact(table, None).map(|contact| contact.model)
 }
 
-/// As [`read_contact_model`], with the names and parameters of the laws.
+/// As [`read_contact_model`], with the names and parameters of the laws. Parameters that follow from the properties of
+/// the two materials need not be given where the `materials` have these.
 ///
 /// # Errors
 /// As of [`read_contact_model`].
-pub fn read_contact(mut table: TableReader<'_>) -> Result<NamedContact, Reported> {
-    let normal = read_law(&mut table, Role::Normal, Normal::build);
-    let noncontact = read_law(&mut table, Role::NonContact, NonContact::build);
-    let viscosity = read_law(&mut table, Role::Viscosity, Viscosity::build);
-    let mut slider = |role| read_law(&mut table, role, |name, values| friction::build(role, name, values));
+pub fn read_contact(
+    mut table: TableReader<'_>,
+    materials: Option<[&MaterialProperties; 2]>,
+) -> Result<NamedContact, Reported> {
+    let normal = read_law(&mut table, materials, Role::Normal, Normal::build);
+    let noncontact = read_law(&mut table, materials, Role::NonContact, NonContact::build);
+    let viscosity = read_law(&mut table, materials, Role::Viscosity, Viscosity::build);
+    let mut slider =
+        |role| read_law(&mut table, materials, role, |name, values| friction::build(role, name, values));
     let (sliding, rolling, torsion) = (slider(Role::Sliding), slider(Role::Rolling), slider(Role::Torsion));
-    let conventions = read_conventions(&mut table);
+    let conventions = read_choices(&mut table);
+    let expected = read_choices(&mut table);
     table.finish();
     let (normal, normal_law) = normal?;
     let (noncontact, noncontact_law) = noncontact?;
@@ -55,9 +64,18 @@ pub fn read_contact(mut table: TableReader<'_>) -> Result<NamedContact, Reported
     let (rolling, rolling_law) = rolling?;
     let (torsion, torsion_law) = torsion?;
     let (conventions, choices) = conventions?;
-    let laws = ContactLaws { noncontact, viscosity, sliding, rolling, torsion, conventions };
-    let named =
-        vec![normal_law, noncontact_law, viscosity_law, sliding_law, rolling_law, torsion_law, choices];
+    let (expected, expectation): (ExpectedLoading, _) = expected?;
+    let laws = ContactLaws { noncontact, viscosity, sliding, rolling, torsion, conventions, expected };
+    let named = vec![
+        normal_law,
+        noncontact_law,
+        viscosity_law,
+        sliding_law,
+        rolling_law,
+        torsion_law,
+        choices,
+        expectation,
+    ];
     Ok(NamedContact { model: ContactModel { normal, laws }, laws: named })
 }
 
@@ -69,12 +87,14 @@ pub fn entries(role: Role) -> Vec<&'static LawEntry> {
         Role::Viscosity => Viscosity::ENTRIES.iter().collect(),
         Role::Sliding | Role::Rolling | Role::Torsion => friction::entries(role),
         Role::Conventions => vec![&Conventions::ENTRY],
+        Role::Expected => vec![&ExpectedLoading::ENTRY],
     }
 }
 
 /// Reads the table of one role: `law`, and the parameters of the law that it names.
 fn read_law<L>(
     contact: &mut TableReader<'_>,
+    materials: Option<[&MaterialProperties; 2]>,
     role: Role,
     build: impl Fn(&str, &Values) -> Option<Result<L, InvalidParameter>>,
 ) -> Result<(L, NamedLaw), Reported> {
@@ -95,7 +115,10 @@ fn read_law<L>(
     let name = table.required("law", Name(&names))?;
     let unknown = |table: &TableReader<'_>| table.refuse("law", Problem::unknown_choice(name, &names));
     let entry = entries.iter().find(|entry| entry.name == name).ok_or_else(|| unknown(&table))?;
-    let law = read_parameters(&mut table, entry.parameters).and_then(|values| {
+    let law = read_parameters(&mut table, entry.parameters).and_then(|mut values| {
+        for parameter in entry.parameters {
+            mix(&table, parameter, materials, &mut values)?;
+        }
         let values = entry.complete(&values).map_err(|error| refuse_parameter(&table, error))?;
         let law = build(name, &values).ok_or_else(|| unknown(&table))?;
         let law = law.map_err(|error| refuse_parameter(&table, error))?;
@@ -105,11 +128,35 @@ fn read_law<L>(
     law
 }
 
-/// Reads the table `conventions`, which holds choices and no law.
-fn read_conventions(contact: &mut TableReader<'_>) -> Result<(Conventions, NamedLaw), Reported> {
-    let entry = &Conventions::ENTRY;
-    let role = Role::Conventions;
-    let given = match contact.optional_table(role.key())? {
+/// Sets a parameter that is not given from the properties of the two materials, where there is a rule for that.
+fn mix(
+    table: &TableReader<'_>,
+    parameter: &Parameter,
+    materials: Option<[&MaterialProperties; 2]>,
+    values: &mut Values,
+) -> Result<(), Reported> {
+    let Some(mixing) = parameter.mixing.filter(|_| values.get(parameter.name).is_none()) else {
+        return Ok(());
+    };
+    let of = |material: &MaterialProperties| -> Option<Vec<f64>> {
+        mixing.needs.iter().map(|property| material.number(property.name)).collect()
+    };
+    if let Some([one, other]) = materials
+        && let (Some(one), Some(other)) = (of(one), of(other))
+    {
+        values.set(parameter.name, Value::Number((mixing.rule)(&one, &other)));
+        return Ok(());
+    }
+    let needs: Vec<String> = mixing.needs.iter().map(|property| format!("`{}`", property.name)).collect();
+    let needs = needs.join(" and ");
+    let expected = format!("{} [{}], or {needs} of both materials", parameter.meaning, parameter.unit());
+    Err(table.refuse(parameter.name, Problem::MissingKey { key: parameter.name.to_owned(), expected }))
+}
+
+/// Reads the table of a role that one entry plays, which holds parameters and names no law.
+fn read_choices<L: Law>(contact: &mut TableReader<'_>) -> Result<(L, NamedLaw), Reported> {
+    let entry = &L::ENTRY;
+    let given = match contact.optional_table(entry.role.key())? {
         Some(mut table) => {
             let values = read_parameters(&mut table, entry.parameters);
             table.finish();
@@ -117,7 +164,7 @@ fn read_conventions(contact: &mut TableReader<'_>) -> Result<(Conventions, Named
         }
         None => Values::new(),
     };
-    let built = entry.complete(&given).and_then(|values| Ok((Conventions::from_values(&values)?, values)));
-    let (conventions, values) = built.map_err(|error| refuse_parameter(contact, error))?;
-    Ok((conventions, NamedLaw { role, name: entry.name, values }))
+    let built = entry.complete(&given).and_then(|values| Ok((L::from_values(&values)?, values)));
+    let (choices, values) = built.map_err(|error| refuse_parameter(contact, error))?;
+    Ok((choices, NamedLaw { role: entry.role, name: entry.name, values }))
 }

@@ -33,6 +33,7 @@ pub mod document;
 pub mod error;
 pub mod list;
 mod load;
+pub mod material;
 mod mistake;
 pub mod overrides;
 pub mod parameters;

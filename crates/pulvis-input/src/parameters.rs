@@ -30,7 +30,8 @@ pub fn read_parameters(table: &mut TableReader<'_>, parameters: &[Parameter]) ->
 }
 
 fn read_parameter(table: &mut TableReader<'_>, parameter: &Parameter) -> Result<Option<Value>, Reported> {
-    let required = parameter.presence == Presence::Required;
+    // What can follow from the materials may be left out.
+    let required = parameter.presence == Presence::Required && parameter.mixing.is_none();
     match parameter.kind {
         Kind::Number { dimension, range, may_be_infinite } => {
             let rule = rule(dimension, range, may_be_infinite);
@@ -54,7 +55,7 @@ fn read_parameter(table: &mut TableReader<'_>, parameter: &Parameter) -> Result<
     }
 }
 
-fn rule(dimension: Dimension, range: Range, may_be_infinite: bool) -> QuantityRule {
+pub(crate) fn rule(dimension: Dimension, range: Range, may_be_infinite: bool) -> QuantityRule {
     let rule = QuantityRule::of(dimension);
     let rule = match range {
         Range::Any => rule,

@@ -25,5 +25,5 @@ pub use array::{ArrayMask, F64Array};
 pub use dimension::Dimension;
 pub use prefetch::prefetch;
 pub use real::{Mask, Real};
-pub use simd8::{InstructionSet, Kernel, Packed4, Simd4, Simd4Pair, Simd8};
+pub use simd8::{InstructionSet, Kernel, Packed4, Pointer, Routine, Simd4, Simd4Pair, Simd8, Task};
 pub use vector::Vector3;

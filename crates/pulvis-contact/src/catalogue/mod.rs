@@ -8,6 +8,7 @@ use std::fmt;
 use pulvis_math::Dimension;
 
 mod list;
+pub mod mixing;
 mod values;
 
 pub(crate) use list::law_list;
@@ -30,11 +31,13 @@ pub enum Role {
     Torsion,
     /// Choices in which codes differ.
     Conventions,
+    /// What contacts are expected to go through.
+    Expected,
 }
 
 impl Role {
     /// Every role, in the order in which a contact is described.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Normal,
         Self::NonContact,
         Self::Viscosity,
@@ -42,6 +45,7 @@ impl Role {
         Self::Rolling,
         Self::Torsion,
         Self::Conventions,
+        Self::Expected,
     ];
 
     /// The key of the table that holds this law in a scenario, for example `normal`.
@@ -54,6 +58,7 @@ impl Role {
             Self::Rolling => "rolling",
             Self::Torsion => "torsion",
             Self::Conventions => "conventions",
+            Self::Expected => "expected",
         }
     }
 }
@@ -149,6 +154,8 @@ pub struct Parameter {
     pub presence: Presence,
     /// What it means, in one sentence.
     pub meaning: &'static str,
+    /// How it follows from the two materials where it is not given.
+    pub mixing: Option<&'static mixing::Mixing>,
 }
 
 impl Parameter {
@@ -161,7 +168,7 @@ impl Parameter {
         meaning: &'static str,
     ) -> Self {
         let kind = Kind::Number { dimension, range, may_be_infinite: false };
-        Self { name, symbol, kind, presence: Presence::Required, meaning }
+        Self { name, symbol, kind, presence: Presence::Required, meaning, mixing: None }
     }
 
     /// One name of several, with the one that holds where none is given.
@@ -173,12 +180,17 @@ impl Parameter {
         meaning: &'static str,
     ) -> Self {
         let presence = Presence::DefaultChoice(default);
-        Self { name, symbol, kind: Kind::Choice(options), presence, meaning }
+        Self { name, symbol, kind: Kind::Choice(options), presence, meaning, mixing: None }
     }
 
     /// The same parameter with a number [SI] that holds where none is given.
     pub const fn or(self, default: f64) -> Self {
         Self { presence: Presence::Default(default), ..self }
+    }
+
+    /// The same parameter, which follows from the properties of the two materials where it is not given.
+    pub const fn from_materials(self, mixing: &'static mixing::Mixing) -> Self {
+        Self { mixing: Some(mixing), ..self }
     }
 
     /// The same parameter, not required.

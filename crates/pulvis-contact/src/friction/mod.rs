@@ -1,14 +1,23 @@
 //! Resistance against sliding, rolling and torsion. One file a law; the list is at the end of this
 //! file.
 
-use pulvis_math::{Mask, Real, Vector3};
+use pulvis_math::Real;
 
 use crate::catalogue::{InvalidParameter, LawEntry, Role, Values};
+use crate::conventions::SlipDashpot;
+use crate::memory::Memory;
 
+mod mindlin;
 mod none;
+mod rotation;
 mod spring_slider;
+mod tangent;
 
+pub use mindlin::Mindlin;
+pub use rotation::SpringRotation;
+pub(crate) use rotation::{rescaled, twisted};
 pub use spring_slider::SpringSlider;
+pub use tangent::{Along, Tangent};
 
 /// What a friction law answers to a relative motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,80 +34,120 @@ pub struct FrictionResponse<T, R = f64> {
 
 /// The motion that a spring of a contact follows during one time step.
 #[derive(Clone, Copy, Debug)]
-pub struct SpringMotion<T, R> {
+pub struct SpringMotion<T, R: Real> {
     /// Relative velocity at the time of the force [m/s].
     pub velocity: T,
-    /// Relative displacement since the last call, from the velocities that moved the bodies [m].
+    /// Relative velocity at mid-step [m/s].
+    pub velocity_mid: T,
+    /// Relative displacement since the last call, `velocity_mid` times `elapsed` [m].
     pub displacement: T,
+    /// For how long the contact has been closed since the last call [s].
+    pub elapsed: R,
+    /// Whether it is closed.
+    pub in_contact: R::Mask,
     /// Normal force that the Coulomb limit refers to [N]; zero for an open contact.
     pub friction_reference: R,
+    /// Radius of the contact area, zero where the normal law knows none [m].
+    pub contact_radius: R,
+    /// What the dashpot sees in slip.
+    pub slip_dashpot: SlipDashpot,
 }
 
-/// How the sliding and rolling springs follow the contact when it turns in space.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SpringRotation {
-    /// Projected into the tangent plane and stretched back to its old length (Luding 2008, eq. 17).
-    /// The length is kept, the direction drifts at first order in the step: projection shortens only
-    /// the part along the way that the normal turns, stretching lengthens both.
-    #[default]
-    Rescale,
-    /// Projected into the tangent plane only (LIGGGHTS).
-    Project,
-    /// Turned with the line of centres, and about it with the mean angular velocity of the bodies (YADE): the
-    /// spring of a stuck pair that turns as one body turns with it, to second order in the step.
-    Twist,
-    /// Only the part along the line of centres that the present step brings is removed (MercuryDPM).
-    Rate,
+/// A law against one of the three relative motions. Its memory is a vector of the tangent plane, or a number along the
+/// line of centres, which turns with the contact, and some numbers beside it.
+pub trait FrictionLaw: Copy {
+    /// What it remembers beside the vector.
+    type Scalars<R: Real>: Memory<R>;
+
+    /// Advances the memory and answers with the force, and with whether the contact slips. An open contact
+    /// (`in_contact` false, reference zero) is left without force and without memory.
+    fn respond<R: Real, T: Tangent<R>>(
+        &self,
+        motion: &SpringMotion<T, R>,
+        vector: &mut T,
+        scalars: &mut Self::Scalars<R>,
+    ) -> (FrictionResponse<T, R>, R::Mask);
+
+    /// The elastic force [N] that a vector of its memory stands for, along it.
+    fn elastic_force<R: Real, T: Tangent<R>>(&self, vector: T) -> T;
+
+    /// Energy [J] that is gone when the square of the vector's length has fallen from `before` to `after`.
+    fn lost_by_shortening<R: Real>(&self, before: R, after: R) -> R;
+
+    /// Dashpot coefficient [kg/s].
+    fn dashpot(&self) -> f64;
+
+    /// The greatest stiffness [N/m], where the contact area has at most the radius [m].
+    fn max_stiffness(&self, contact_radius: f64) -> f64;
+
+    /// Whether the stiffness follows the radius of the contact area.
+    const NEEDS_CONTACT_RADIUS: bool = false;
 }
 
-/// A spring before the step in the tangent plane of the present normal, at the length that it had.
-#[inline(always)]
-pub(crate) fn rescaled<R: Real>(spring: Vector3<R>, normal: Vector3<R>) -> Vector3<R> {
-    let along = spring.dot(normal);
-    restored(spring - normal * along, along * along)
-}
-
-/// A spring before the step turned with the normal, which has changed by `turned`, and about it by the
-/// mean turn `twist` of the bodies.
-#[inline(always)]
-pub(crate) fn twisted<R: Real>(
-    spring: Vector3<R>,
-    normal: Vector3<R>,
-    turned: Vector3<R>,
-    twist: R,
-) -> Vector3<R> {
-    // Projection loses half the square of the turn along the way of the normal.
-    let lost = turned * (R::splat(0.5) * turned.dot(spring));
-    let projected = (spring + lost + normal.cross(spring) * twist).tangential_to(normal);
-    restored(projected, spring.norm_squared() - projected.norm_squared())
-}
-
-/// Beyond this t, √(1 + t) is not taken from its series.
-const SERIES_ENDS: f64 = 8e-6;
-
-/// A spring stretched, or shortened, to the length before projection: the square of its length has lost
-/// `missing`. The factor is √(1 + t), t = missing/|spring|², and normals turn little in a step.
-// A function and not a closure: closures are not inlined by force, and out of line they are compiled
-// without the vector instructions of the loop that calls them.
-#[inline(always)]
-fn restored<R: Real>(spring: Vector3<R>, missing: R) -> Vector3<R> {
-    let remaining = spring.norm_squared();
-    // No spring: no factor.
-    let t = (missing / remaining).keep_where(remaining.gt(R::zero()));
-    // The next term, t³/16, is below 2⁻⁵⁴.
-    let mut factor = R::one() + t * (R::splat(0.5) - t * R::splat(0.125));
-    let far = t.abs().gt(R::splat(SERIES_ENDS));
-    if far.any() {
-        factor = R::select(far, (R::one() + t).sqrt(), factor);
-    }
-    spring * factor
+/// Something to be done with a friction law whose type is only known at run time.
+pub(crate) trait FrictionVisitor {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn visit<F: FrictionLaw>(self, law: &F) -> Self::Output;
 }
 
 macro_rules! friction_laws {
-    ($($module:ident),* $(,)?) => {
+    (none: $none:ident; common: $common_module:ident::$common:ident; others: $($module:ident::$law:ident),* $(,)?) => {
+        /// Any friction law of the catalogue.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum Friction {
+            #[doc = concat!("See [`", stringify!($common), "`].")] $common($common),
+            $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law),)*
+        }
+
+        impl From<$common> for Friction {
+            fn from(law: $common) -> Self {
+                Self::$common(law)
+            }
+        }
+        $(impl From<$law> for Friction {
+            fn from(law: $law) -> Self {
+                Self::$law(law)
+            }
+        })*
+
+        impl Friction {
+            /// Hands the law, with its own type, to the visitor.
+            #[inline(always)]
+            pub(crate) fn accept<V: FrictionVisitor>(&self, visitor: V) -> V::Output {
+                match self {
+                    Self::$common(law) => visitor.visit(law),
+                    $(Self::$law(law) => visitor.visit(law),)*
+                }
+            }
+
+            /// Hands the law to the visitor if it is the common one.
+            #[inline(always)]
+            pub(crate) fn accept_common<V: FrictionVisitor>(&self, visitor: V) -> Option<V::Output> {
+                match self {
+                    Self::$common(law) => Some(visitor.visit(law)),
+                    _ => None,
+                }
+            }
+
+            /// Whether loops for common contacts are compiled for the law.
+            pub const fn is_common(&self) -> bool {
+                matches!(self, Self::$common(_))
+            }
+
+            /// The law's description in a role that it can play.
+            pub fn entry(&self, role: Role) -> Option<&'static LawEntry> {
+                match self {
+                    Self::$common(_) => $common_module::entry(role),
+                    $(Self::$law(_) => $module::entry(role),)*
+                }
+            }
+        }
+
         /// The descriptions of all laws that can play `role`.
         pub fn entries(role: Role) -> Vec<&'static LawEntry> {
-            [$($module::entry(role)),*].into_iter().flatten().collect()
+            [$none::entry(role), $common_module::entry(role), $($module::entry(role)),*].into_iter().flatten().collect()
         }
 
         /// The law called `name` in `role` with the given parameter values; the outer `None` where
@@ -107,58 +156,64 @@ macro_rules! friction_laws {
             role: Role,
             name: &str,
             values: &Values,
-        ) -> Option<Result<Option<SpringSlider>, InvalidParameter>> {
+        ) -> Option<Result<Option<Friction>, InvalidParameter>> {
+            if $none::entry(role).is_some_and(|entry| entry.name == name) {
+                return Some(Ok(None));
+            }
+            if let Some(entry) = $common_module::entry(role).filter(|entry| entry.name == name) {
+                let law = entry.complete(values).and_then(|values| $common_module::build(role, &values));
+                return Some(law.map(|law| Some(law.into())));
+            }
             $(if let Some(entry) = $module::entry(role).filter(|entry| entry.name == name) {
-                return Some(entry.complete(values).and_then(|values| $module::build(role, &values)));
+                let law = entry.complete(values).and_then(|values| $module::build(role, &values));
+                return Some(law.map(|law| Some(law.into())));
             })*
             None
         }
     };
 }
 
-// The list of friction laws: a new one is its file and its name here.
-friction_laws![none, spring_slider];
+// The list of friction laws: a new one is its file and its name here, among the others. The loops for common contacts
+// hold the code of the common one only.
+friction_laws![none: none; common: spring_slider::SpringSlider; others: mindlin::Mindlin];
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use pulvis_math::elementary;
+struct Dashpot;
+impl FrictionVisitor for Dashpot {
+    type Output = f64;
+    fn visit<F: FrictionLaw>(self, law: &F) -> f64 {
+        law.dashpot()
+    }
+}
 
-    /// A spring of length `length` that leans by `angle` out of the plane at right angles to z.
-    fn leaning(length: f64, angle: f64) -> Vector3 {
-        Vector3::new(length * elementary::cos(angle), 0.0, length * elementary::sin(angle))
+struct MaxStiffness(f64);
+impl FrictionVisitor for MaxStiffness {
+    type Output = f64;
+    fn visit<F: FrictionLaw>(self, law: &F) -> f64 {
+        law.max_stiffness(self.0)
+    }
+}
+
+struct NeedsContactRadius;
+impl FrictionVisitor for NeedsContactRadius {
+    type Output = bool;
+    fn visit<F: FrictionLaw>(self, _law: &F) -> bool {
+        F::NEEDS_CONTACT_RADIUS
+    }
+}
+
+impl Friction {
+    /// Dashpot coefficient [kg/s].
+    pub fn dashpot(&self) -> f64 {
+        self.accept(Dashpot)
     }
 
-    const NORMAL: Vector3 = Vector3::new(0.0, 0.0, 1.0);
-
-    #[test]
-    fn a_spring_is_turned_into_the_tangent_plane_at_its_length() {
-        // From angles that change nothing over those of the series to those of the square root.
-        for exponent in -12..=0 {
-            for mantissa in [1.0, 2.1, 4.7] {
-                let angle = mantissa * elementary::powi(10.0, exponent);
-                if angle < 1.5 {
-                    let spring = rescaled(leaning(3e-7, angle), NORMAL);
-                    assert_eq!((spring.y, spring.z), (0.0, 0.0));
-                    assert!((spring.x / 3e-7 - 1.0).abs() < 4.0 * f64::EPSILON, "{angle}: {}", spring.x);
-                }
-            }
-        }
+    /// The greatest stiffness [N/m], where the contact area has at most the radius [m].
+    pub fn max_stiffness(&self, contact_radius: f64) -> f64 {
+        self.accept(MaxStiffness(contact_radius))
     }
 
-    #[test]
-    fn series_and_square_root_agree_where_one_takes_over_from_the_other() {
-        for t in [0.999 * SERIES_ENDS, 1.001 * SERIES_ENDS, -0.999 * SERIES_ENDS, -1.001 * SERIES_ENDS] {
-            let spring = restored(Vector3::new(2.0, 0.0, 0.0), 4.0 * t);
-            assert!((spring.x / (2.0 * (1.0 + t).sqrt()) - 1.0).abs() < 2.0 * f64::EPSILON, "{t}");
-        }
-    }
-
-    #[test]
-    fn a_spring_that_lies_along_the_normal_or_is_none_stays_finite() {
-        for spring in [Vector3::zero(), Vector3::new(0.0, 0.0, 1e-6)] {
-            assert_eq!(rescaled(spring, NORMAL), Vector3::zero());
-            assert_eq!(twisted(spring, NORMAL, Vector3::zero(), 0.1), Vector3::zero());
-        }
+    /// Whether the stiffness follows the radius of the contact area.
+    pub fn needs_contact_radius(&self) -> bool {
+        self.accept(NeedsContactRadius)
     }
 }

@@ -1,7 +1,6 @@
 //! No resistance.
 
-use super::SpringSlider;
-use crate::catalogue::{InvalidParameter, LawEntry, Role, Values};
+use crate::catalogue::{LawEntry, Role};
 
 const fn described(role: Role) -> LawEntry {
     LawEntry {
@@ -29,8 +28,4 @@ pub(super) fn entry(role: Role) -> Option<&'static LawEntry> {
         Role::Torsion => Some(&TORSION),
         _ => None,
     }
-}
-
-pub(super) fn build(_role: Role, _values: &Values) -> Result<Option<SpringSlider>, InvalidParameter> {
-    Ok(None)
 }

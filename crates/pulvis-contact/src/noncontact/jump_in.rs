@@ -4,6 +4,8 @@ use pulvis_math::Real;
 
 use super::{NonContactLaw, NonContactResponse, linear_tail, reversible};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Role, Values};
+use crate::kinematics::NormalMotion;
+use crate::pair::Pair;
 
 /// Attraction that is absent on approach, jumps to −f_a at touch, and on separation fades linearly
 /// down to δ_a = −f_a/k_c^a. The pair remembers the touch until it is out of reach; coming together
@@ -43,18 +45,27 @@ f   = 0                          for δ ≤ δ_a; the touch is forgotten",
     }
 }
 
+impl JumpIn {
+    /// How far beyond touching the attraction acts, f_a/k_c^a [m].
+    pub fn range(&self) -> f64 {
+        self.f_a / self.kc_a
+    }
+}
+
 impl NonContactLaw for JumpIn {
+    type Memory<R: Real> = [R; 1];
+
     #[inline(always)]
-    fn respond<R: Real>(&self, overlap: R, touched: &mut R) -> NonContactResponse<R> {
-        let (force, potential) = linear_tail(self.f_a, self.kc_a, overlap);
+    fn respond<R: Real>(&self, motion: &NormalMotion<R>, memory: &mut [R; 1]) -> NonContactResponse<R> {
+        let (force, potential) = linear_tail(self.f_a, self.kc_a, motion.overlap);
         let half = R::splat(0.5);
-        let before = touched.gt(half);
-        let touches = overlap.ge(R::zero());
+        let before = memory[0].gt(half);
+        let touches = motion.overlap.ge(R::zero());
         // Zero reach: at δ = 0 nothing is left to remember.
-        let within_reach = overlap.gt(R::splat(-self.interaction_range()));
+        let within_reach = motion.overlap.gt(R::splat(-self.range()));
         let now = (before | touches) & within_reach;
-        *touched = R::one().keep_where(now);
-        let sudden = R::splat(0.5 * self.f_a * self.interaction_range());
+        memory[0] = R::one().keep_where(now);
+        let sudden = R::splat(0.5 * self.f_a * self.range());
         NonContactResponse {
             force: force.keep_where(now),
             potential: potential.keep_where(now),
@@ -62,25 +73,25 @@ impl NonContactLaw for JumpIn {
         }
     }
 
-    fn interaction_range(&self) -> f64 {
-        self.f_a / self.kc_a
+    fn interaction_range(&self, _pair: &Pair<f64>) -> f64 {
+        self.range()
     }
 
-    fn max_stiffness(&self) -> f64 {
+    fn max_stiffness(&self, _pair: &Pair<f64>) -> f64 {
         if self.kc_a.is_finite() { self.kc_a } else { 0.0 }
     }
 
-    fn remembers_touch(&self) -> bool {
-        true
+    fn acts_on_approach(&self) -> bool {
+        false
     }
 
-    fn branch(&self, overlap: f64, touched: f64) -> (u8, &'static str) {
+    fn branch(&self, _pair: &Pair<f64>, overlap: f64, memory: &[f64; 1]) -> (u8, &'static str) {
         // With zero reach nothing acts at δ = 0 either.
-        if overlap <= -self.interaction_range() {
+        if overlap <= -self.range() {
             (0, "free")
         } else if overlap >= 0.0 {
             (2, "in contact")
-        } else if touched > 0.5 {
+        } else if memory[0] > 0.5 {
             (1, "attraction")
         } else {
             (0, "free")
@@ -92,34 +103,38 @@ impl NonContactLaw for JumpIn {
 mod tests {
     use super::*;
 
+    fn at(overlap: f64) -> NormalMotion<f64> {
+        NormalMotion::at_rest(&Pair::wall(1e-6, 1e-3), overlap)
+    }
+
     const LAW: JumpIn = JumpIn { f_a: 1e-4, kc_a: 50.0 };
 
     #[test]
     fn a_pair_that_never_touched_feels_nothing() {
-        let mut touched = 0.0;
-        assert_eq!(LAW.respond(-1e-7, &mut touched), NonContactResponse::default());
-        assert_eq!(touched, 0.0);
+        let mut touched = [0.0];
+        assert_eq!(LAW.respond(&at(-1e-7), &mut touched), NonContactResponse::default());
+        assert_eq!(touched, [0.0]);
     }
 
     #[test]
     fn the_memory_of_a_touch_lives_until_the_pair_is_out_of_reach() {
-        let mut touched = 0.0;
-        let touch = LAW.respond(0.0, &mut touched);
+        let mut touched = [0.0];
+        let touch = LAW.respond(&at(0.0), &mut touched);
         assert_eq!(touch.force, -1e-4);
         assert_eq!(touch.dissipated, 0.5 * 1e-4 * 2e-6);
-        assert!((LAW.respond(-1e-6, &mut touched).force + 5e-5).abs() < 1e-19); // one rounding
-        assert_eq!(LAW.respond(-1e-6, &mut touched).dissipated, 0.0);
-        assert_eq!(LAW.respond(-2e-6, &mut touched).force, 0.0);
-        assert_eq!(touched, 0.0);
-        assert_eq!(LAW.respond(-1e-6, &mut touched).force, 0.0);
+        assert!((LAW.respond(&at(-1e-6), &mut touched).force + 5e-5).abs() < 1e-19); // one rounding
+        assert_eq!(LAW.respond(&at(-1e-6), &mut touched).dissipated, 0.0);
+        assert_eq!(LAW.respond(&at(-2e-6), &mut touched).force, 0.0);
+        assert_eq!(touched, [0.0]);
+        assert_eq!(LAW.respond(&at(-1e-6), &mut touched).force, 0.0);
     }
 
     #[test]
     fn zero_reach_leaves_the_force_in_contact() {
         let law = JumpIn { f_a: 1e-4, kc_a: f64::INFINITY };
-        let mut touched = 0.0;
-        assert_eq!(law.respond(1e-9, &mut touched).force, -1e-4);
-        assert_eq!(law.respond(-1e-12, &mut touched).force, 0.0);
-        assert_eq!(touched, 0.0);
+        let mut touched = [0.0];
+        assert_eq!(law.respond(&at(1e-9), &mut touched).force, -1e-4);
+        assert_eq!(law.respond(&at(-1e-12), &mut touched).force, 0.0);
+        assert_eq!(touched, [0.0]);
     }
 }

@@ -3,6 +3,9 @@
 use pulvis_math::Real;
 
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Values, law_list};
+use crate::kinematics::NormalMotion;
+use crate::memory::{self, Columns, Memory};
+use crate::pair::Pair;
 
 mod jump_in;
 mod none;
@@ -25,21 +28,28 @@ pub struct NonContactResponse<R = f64> {
 
 /// An attraction that is added to the normal law, in contact and at a distance.
 pub trait NonContactLaw: Law {
-    /// The response at `overlap` δ [m], negative at a distance. `touched` is 1 where the pair has
-    /// been in contact since it last was out of reach, otherwise 0; the law updates it.
-    fn respond<R: Real>(&self, overlap: R, touched: &mut R) -> NonContactResponse<R>;
+    /// What a contact remembers.
+    type Memory<R: Real>: Memory<R>;
 
-    /// The largest distance −δ at which the law acts [m].
-    fn interaction_range(&self) -> f64;
+    /// The response to a motion; updates the memory. It is asked as long as the bodies are within the law's
+    /// [range](Self::interaction_range), and once more when they have left it: then it must be zero.
+    fn respond<R: Real>(
+        &self,
+        motion: &NormalMotion<R>,
+        memory: &mut Self::Memory<R>,
+    ) -> NonContactResponse<R>;
+
+    /// The largest distance −δ at which the law acts [m]. It must not fall when radii grow.
+    fn interaction_range(&self, pair: &Pair<f64>) -> f64;
 
     /// The steepest slope |df/dδ| [N/m], zero for a force that only jumps.
-    fn max_stiffness(&self) -> f64;
+    fn max_stiffness(&self, pair: &Pair<f64>) -> f64;
 
-    /// Whether the force depends on `touched`, so that a contact must remember it.
-    fn remembers_touch(&self) -> bool;
+    /// Whether the law acts on bodies that approach each other before they touch.
+    fn acts_on_approach(&self) -> bool;
 
-    /// The name and the number of the branch at `overlap` [m].
-    fn branch(&self, overlap: f64, touched: f64) -> (u8, &'static str);
+    /// The name and the number of the branch at `overlap` [m]; zero is the number of bodies on which nothing acts.
+    fn branch(&self, pair: &Pair<f64>, overlap: f64, memory: &Self::Memory<f64>) -> (u8, &'static str);
 }
 
 /// The straight branch of both laws with a reach: force −fa in contact and −kca (δ − δ_a) from
@@ -66,30 +76,42 @@ macro_rules! noncontact_laws {
         }
 
         impl NonContact {
-            /// See [`NonContactLaw::respond`].
+            /// See [`NonContactLaw::respond`]; the law's memory begins at the column `start`.
             #[inline(always)]
-            pub fn respond<R: Real>(&self, overlap: R, touched: &mut R) -> NonContactResponse<R> {
-                match self { $(Self::$law(law) => law.respond(overlap, touched),)* }
+            pub fn respond<R: Real>(
+                &self,
+                motion: &NormalMotion<R>,
+                columns: &mut (impl Columns<R> + ?Sized),
+                start: usize,
+            ) -> NonContactResponse<R> {
+                match self {
+                    $(Self::$law(law) => {
+                        let mut before = memory::load(columns, start);
+                        let answer = law.respond(motion, &mut before);
+                        memory::store(&before, columns, start);
+                        answer
+                    })*
+                }
             }
 
-            /// See [`NonContactLaw::reach`].
-            pub fn interaction_range(&self) -> f64 {
-                match self { $(Self::$law(law) => law.interaction_range(),)* }
+            /// See [`NonContactLaw::interaction_range`].
+            pub fn interaction_range(&self, pair: &Pair) -> f64 {
+                match self { $(Self::$law(law) => law.interaction_range(pair),)* }
             }
 
             /// See [`NonContactLaw::max_stiffness`].
-            pub fn max_stiffness(&self) -> f64 {
-                match self { $(Self::$law(law) => law.max_stiffness(),)* }
+            pub fn max_stiffness(&self, pair: &Pair) -> f64 {
+                match self { $(Self::$law(law) => law.max_stiffness(pair),)* }
             }
 
-            /// See [`NonContactLaw::remembers_touch`].
-            pub fn remembers_touch(&self) -> bool {
-                match self { $(Self::$law(law) => law.remembers_touch(),)* }
+            /// See [`NonContactLaw::acts_on_approach`].
+            pub fn acts_on_approach(&self) -> bool {
+                match self { $(Self::$law(law) => law.acts_on_approach(),)* }
             }
 
-            /// See [`NonContactLaw::branch`].
-            pub fn branch(&self, overlap: f64, touched: f64) -> (u8, &'static str) {
-                match self { $(Self::$law(law) => law.branch(overlap, touched),)* }
+            /// See [`NonContactLaw::branch`]; the law's memory begins at the column `start`.
+            pub fn branch(&self, pair: &Pair, overlap: f64, columns: &[f64], start: usize) -> (u8, &'static str) {
+                match self { $(Self::$law(law) => law.branch(pair, overlap, &memory::load(columns, start)),)* }
             }
         }
     };

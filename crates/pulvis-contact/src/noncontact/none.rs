@@ -4,6 +4,8 @@ use pulvis_math::Real;
 
 use super::{NonContactLaw, NonContactResponse};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Role, Values};
+use crate::kinematics::NormalMotion;
+use crate::pair::Pair;
 
 /// No attraction beyond what the normal law has.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,24 +30,26 @@ impl Law for None {
 }
 
 impl NonContactLaw for None {
+    type Memory<R: Real> = ();
+
     #[inline(always)]
-    fn respond<R: Real>(&self, _overlap: R, _touched: &mut R) -> NonContactResponse<R> {
+    fn respond<R: Real>(&self, _motion: &NormalMotion<R>, _memory: &mut ()) -> NonContactResponse<R> {
         NonContactResponse::default()
     }
 
-    fn interaction_range(&self) -> f64 {
+    fn interaction_range(&self, _pair: &Pair<f64>) -> f64 {
         0.0
     }
 
-    fn max_stiffness(&self) -> f64 {
+    fn max_stiffness(&self, _pair: &Pair<f64>) -> f64 {
         0.0
     }
 
-    fn remembers_touch(&self) -> bool {
+    fn acts_on_approach(&self) -> bool {
         false
     }
 
-    fn branch(&self, _overlap: f64, _touched: f64) -> (u8, &'static str) {
+    fn branch(&self, _pair: &Pair<f64>, _overlap: f64, _memory: &()) -> (u8, &'static str) {
         (0, "none")
     }
 }
@@ -54,10 +58,14 @@ impl NonContactLaw for None {
 mod tests {
     use super::*;
 
+    fn at(overlap: f64) -> NormalMotion<f64> {
+        NormalMotion::at_rest(&Pair::wall(1e-6, 1e-3), overlap)
+    }
+
     #[test]
     fn without_a_law_there_is_no_force_at_any_distance() {
         for overlap in [-1.0, 0.0, 1.0] {
-            assert_eq!(None.respond(overlap, &mut 0.0), NonContactResponse::default());
+            assert_eq!(None.respond(&at(overlap), &mut ()), NonContactResponse::default());
         }
     }
 }

@@ -4,6 +4,8 @@ use pulvis_math::{Dimension, Real};
 
 use super::{NonContactLaw, NonContactResponse, linear_tail};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
+use crate::kinematics::NormalMotion;
+use crate::pair::Pair;
 
 /// Reversible attraction that grows linearly from δ_a = −f_a/k_c^a to contact and is constant in
 /// contact: f = −f_a for δ > 0, −k_c^a δ − f_a for δ_a < δ <= 0, zero beyond. Continuous and
@@ -58,29 +60,38 @@ f   = 0                          for δ ≤ δ_a",
     }
 }
 
+impl Reversible {
+    /// How far beyond touching the attraction acts, f_a/k_c^a [m].
+    pub fn range(&self) -> f64 {
+        self.f_a / self.kc_a
+    }
+}
+
 impl NonContactLaw for Reversible {
+    type Memory<R: Real> = ();
+
     #[inline(always)]
-    fn respond<R: Real>(&self, overlap: R, _touched: &mut R) -> NonContactResponse<R> {
-        let (force, potential) = linear_tail(self.f_a, self.kc_a, overlap);
+    fn respond<R: Real>(&self, motion: &NormalMotion<R>, _memory: &mut ()) -> NonContactResponse<R> {
+        let (force, potential) = linear_tail(self.f_a, self.kc_a, motion.overlap);
         NonContactResponse { force, potential, dissipated: R::zero() }
     }
 
-    fn interaction_range(&self) -> f64 {
-        self.f_a / self.kc_a
+    fn interaction_range(&self, _pair: &Pair<f64>) -> f64 {
+        self.range()
     }
 
-    fn max_stiffness(&self) -> f64 {
+    fn max_stiffness(&self, _pair: &Pair<f64>) -> f64 {
         if self.kc_a.is_finite() { self.kc_a } else { 0.0 }
     }
 
-    fn remembers_touch(&self) -> bool {
-        false
+    fn acts_on_approach(&self) -> bool {
+        true
     }
 
-    fn branch(&self, overlap: f64, _touched: f64) -> (u8, &'static str) {
+    fn branch(&self, _pair: &Pair<f64>, overlap: f64, _memory: &()) -> (u8, &'static str) {
         if overlap > 0.0 {
             (2, "in contact")
-        } else if overlap > -self.interaction_range() {
+        } else if overlap > -self.range() {
             (1, "attraction")
         } else {
             (0, "out of reach")
@@ -92,23 +103,27 @@ impl NonContactLaw for Reversible {
 mod tests {
     use super::*;
 
+    fn at(overlap: f64) -> NormalMotion<f64> {
+        NormalMotion::at_rest(&Pair::wall(1e-6, 1e-3), overlap)
+    }
+
     #[test]
     fn the_repulsion_is_the_slope_of_the_potential_over_the_overlap() {
         let law = Reversible { f_a: 1e-4, kc_a: 50.0 };
         let h = 1e-10;
         for overlap in [-2.5e-6, -1.9e-6, -0.3e-6, 0.4e-6, 3e-6] {
-            let at = |overlap: f64| law.respond(overlap, &mut 0.0);
-            let slope = (at(overlap + h).potential - at(overlap - h).potential) / (2.0 * h);
+            let answer = |overlap: f64| law.respond(&at(overlap), &mut ());
+            let slope = (answer(overlap + h).potential - answer(overlap - h).potential) / (2.0 * h);
             // Central differences of a parabola are exact up to round-off: 1e-16 fa²/kca / h.
-            assert!((at(overlap).force - slope).abs() < 1e-9, "at {overlap}");
+            assert!((answer(overlap).force - slope).abs() < 1e-9, "at {overlap}");
         }
     }
 
     #[test]
     fn the_force_is_continuous_at_touch_and_at_the_end_of_its_reach() {
         let law = Reversible { f_a: 1e-4, kc_a: 50.0 };
-        let force = |overlap: f64| law.respond(overlap, &mut 0.0).force;
-        assert_eq!(force(-law.interaction_range()), 0.0);
+        let force = |overlap: f64| law.respond(&at(overlap), &mut ()).force;
+        assert_eq!(force(-law.range()), 0.0);
         assert_eq!(force(0.0), -1e-4);
         assert_eq!(force(1e-9), -1e-4);
     }

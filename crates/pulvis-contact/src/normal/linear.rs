@@ -6,6 +6,8 @@ use pulvis_math::{Dimension, Real, elementary};
 
 use super::{NormalLaw, NormalResponse};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
+use crate::expected::ExpectedLoading;
+use crate::kinematics::NormalMotion;
 use crate::pair::Pair;
 
 /// Linear spring and dashpot, f = k δ + γ_0 dδ/dt while δ > 0.
@@ -150,25 +152,10 @@ e   = exp(−π h/ω),  t_c = π/ω    h = γ₀/(2 m_r),  ω² = k/m_r − h²"
     }
 }
 
-impl NormalLaw for Linear {
-    type Memory<R: Real> = ();
-
+impl Linear {
+    /// Dashpot coefficient γ_0 of a pair [kg/s].
     #[inline(always)]
-    fn respond<R: Real>(&self, pair: &Pair<R>, overlap: R, _memory: &mut ()) -> NormalResponse<R> {
-        let force = self.stiffness(pair) * overlap;
-        NormalResponse {
-            force,
-            friction_reference: force,
-            hardening: R::one(),
-            inverse_overlap_scale: pair.inverse_harmonic_radius(),
-            stored_energy: R::splat(0.5) * force * overlap,
-            dissipated_plastic: R::zero(),
-            dissipated_adhesive: R::zero(),
-        }
-    }
-
-    #[inline(always)]
-    fn dashpot<R: Real>(&self, pair: &Pair<R>) -> R {
+    fn dashpot_of<R: Real>(&self, pair: &Pair<R>) -> R {
         // A square root and a division only for the ways of giving the dashpot that need them.
         let mut dashpot = R::splat(self.dashpot);
         if self.dashpot_per_root_mass != 0.0 {
@@ -179,12 +166,31 @@ impl NormalLaw for Linear {
         }
         dashpot
     }
+}
+
+impl NormalLaw for Linear {
+    type Memory<R: Real> = ();
+
+    #[inline(always)]
+    fn respond<R: Real>(&self, motion: &NormalMotion<R>, _memory: &mut ()) -> NormalResponse<R> {
+        let stiffness = self.stiffness(&motion.pair);
+        let force = stiffness * motion.depth;
+        let stored_energy = R::splat(0.5) * force * motion.depth;
+        NormalResponse {
+            dashpot: self.dashpot_of(&motion.pair),
+            ..NormalResponse::elastic(motion, force, stored_energy, stiffness)
+        }
+    }
+
+    fn dashpot(&self, pair: &Pair<f64>) -> f64 {
+        self.dashpot_of(pair)
+    }
 
     fn branch(&self, _pair: &Pair<f64>, overlap: f64, _memory: &()) -> (u8, &'static str) {
         if overlap <= 0.0 { (0, "open") } else { (1, "spring") }
     }
 
-    fn max_stiffness(&self, pair: &Pair<f64>) -> f64 {
+    fn max_stiffness(&self, pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
         self.stiffness(pair)
     }
 }

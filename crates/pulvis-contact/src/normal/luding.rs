@@ -2,8 +2,11 @@
 
 use pulvis_math::{Dimension, Mask, Real};
 
-use super::{Memory, NormalLaw, NormalResponse};
+use super::{NormalLaw, NormalResponse};
 use crate::catalogue::{Choice, InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
+use crate::expected::ExpectedLoading;
+use crate::kinematics::NormalMotion;
+use crate::memory::Memory;
 use crate::pair::Pair;
 
 /// Piece-wise linear, hysteretic, adhesive normal force of meso-particles.
@@ -240,12 +243,8 @@ impl NormalLaw for Luding {
     type Memory<R: Real> = LudingMemory<R>;
 
     #[inline(always)]
-    fn respond<R: Real>(
-        &self,
-        pair: &Pair<R>,
-        overlap: R,
-        memory: &mut LudingMemory<R>,
-    ) -> NormalResponse<R> {
+    fn respond<R: Real>(&self, motion: &NormalMotion<R>, memory: &mut LudingMemory<R>) -> NormalResponse<R> {
+        let (pair, overlap) = (&motion.pair, motion.depth);
         let (k1, kc) = (R::splat(self.k1), R::splat(self.kc));
         let inverse_limit = self.inverse_plastic_limit(pair);
 
@@ -283,10 +282,10 @@ impl NormalLaw for Luding {
             let k2_before = self.stiffness(self.hardening(before, inverse_limit));
             plastic = self.plastic_work((before, k2_before), (loaded, k2_loaded));
         }
-        memory.overlap_max = after.keep_where(overlap.gt(R::zero()));
+        memory.overlap_max = after.keep_where(motion.touching);
 
+        let stored_energy = R::splat(0.5) * force * force / k2;
         NormalResponse {
-            force,
             friction_reference: (force + kc * overlap).max(R::zero()),
             hardening,
             inverse_overlap_scale: if self.has_plastic_limit() {
@@ -294,9 +293,9 @@ impl NormalLaw for Luding {
             } else {
                 pair.inverse_harmonic_radius()
             },
-            stored_energy: R::splat(0.5) * force * force / k2,
             dissipated_plastic: plastic,
             dissipated_adhesive: adhesive,
+            ..NormalResponse::elastic(motion, force, stored_energy, k2)
         }
     }
 
@@ -321,8 +320,23 @@ impl NormalLaw for Luding {
         }
     }
 
-    fn max_stiffness(&self, _pair: &Pair<f64>) -> f64 {
+    fn max_stiffness(&self, _pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
         self.kp.max(self.kc)
+    }
+
+    /// The work ½ f δ along the branches that start at the origin, k1 and −kc.
+    fn branch_potential(
+        &self,
+        branch: u8,
+        motion: &NormalMotion<f64>,
+        memory: &LudingMemory<f64>,
+    ) -> Option<f64> {
+        let from_origin = matches!(branch, 1 | 3) && motion.overlap > 0.0;
+        from_origin.then(|| 0.5 * motion.overlap * self.respond(motion, &mut memory.clone()).force)
+    }
+
+    fn remembered_overlap(&self, memory: &LudingMemory<f64>) -> Option<f64> {
+        Some(memory.overlap_max)
     }
 }
 
@@ -355,8 +369,11 @@ mod tests {
         let pair = Pair::spheres(1e-6, 1e-6, 1e-3, 1e-3);
         let limit: f64 = law.plastic_limit(&pair);
         let overlap = 0.9 * limit;
-        let respond = |overlap_max: f64| law.respond(&pair, overlap, &mut LudingMemory { overlap_max });
-        assert_eq!(respond(1.5 * limit), respond(limit));
+        let respond = |overlap_max: f64| {
+            law.respond(&NormalMotion::at_rest(&pair, overlap), &mut LudingMemory { overlap_max })
+        };
+        let (beyond, at_limit) = (respond(1.5 * limit), respond(limit));
+        assert_eq!((beyond.force, beyond.stored_energy), (at_limit.force, at_limit.stored_energy));
         assert!((respond(limit).force - 500.0 * (overlap - 0.05 * 1e-3)).abs() < 1e-15);
     }
 }

@@ -1,83 +1,151 @@
-//! Forces along the line of centres while two bodies overlap. One file a law; the list is at the
-//! end of this file.
+//! Forces along the line of centres. One file a law; the list is at the end of this file.
 
 use pulvis_math::Real;
 
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Values, law_list};
+use crate::expected::ExpectedLoading;
+use crate::kinematics::NormalMotion;
+use crate::memory::{self, Columns, Memory};
 use crate::pair::Pair;
 
+mod hertz;
+mod jkr;
 mod linear;
 mod luding;
+mod response;
 
+pub use hertz::Hertz;
+pub use jkr::Jkr;
 pub use linear::Linear;
 pub use luding::{Interpolation, Luding, LudingMemory};
+pub use response::NormalResponse;
 
-/// What a contact remembers between time steps, as plain columns of numbers.
-pub trait Memory<R: Real>: Copy + Default + std::fmt::Debug {
-    /// Number of columns.
-    const COLUMNS: usize;
-    /// The memory read from its columns.
-    fn load(column: impl FnMut(usize) -> R) -> Self;
-    /// The memory written into its columns.
-    fn store(&self, column: impl FnMut(usize, R));
-}
-
-/// The memory of a law that has none.
-impl<R: Real> Memory<R> for () {
-    const COLUMNS: usize = 0;
-    #[inline(always)]
-    fn load(_column: impl FnMut(usize) -> R) -> Self {}
-    #[inline(always)]
-    fn store(&self, _column: impl FnMut(usize, R)) {}
-}
-
-/// What a normal law answers to an overlap.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct NormalResponse<R = f64> {
-    /// Rate-independent force f_hys, repulsion positive [N].
-    pub force: R,
-    /// What friction learns of the normal force: the distance f_hys + k_c δ from the law's tensile
-    /// limit, never negative [N].
-    pub friction_reference: R,
-    /// How far the contact has hardened, (k2 − k1)/(kp − k1), from 0 (virgin) to 1; laws that do not
-    /// harden: 1.
-    pub hardening: R,
-    /// One over the overlap that the law takes as its scale (Luding: δ_p; elastic laws: a12) [1/m].
-    pub inverse_overlap_scale: R,
-    /// Energy that the contact gives back along its elastic branch [J].
-    pub stored_energy: R,
-    /// Energy lost to plastic deformation since the last call [J].
-    pub dissipated_plastic: R,
-    /// Energy lost on the adhesive limit branch since the last call [J].
-    pub dissipated_adhesive: R,
-}
-
-/// A rate-independent force along the line of centres.
+/// A force along the line of centres.
 ///
-/// The force may depend on the overlap and on what the memory keeps of the overlap's past, in such a
-/// way that only the turning points matter and not the size of the steps between them.
-pub trait NormalLaw: Law {
+/// The force may depend on the overlap, on the closing rate and the time step, and on what the memory keeps of the
+/// contact's past.
+pub trait NormalLaw: Law + Listed {
     /// What a contact remembers.
     type Memory<R: Real>: Memory<R>;
 
-    /// The response at `overlap` δ >= 0 [m]; updates the memory. An open contact is called with
-    /// overlap zero: the force is then zero, and the memory that of a contact that never was.
-    fn respond<R: Real>(&self, pair: &Pair<R>, overlap: R, memory: &mut Self::Memory<R>)
-    -> NormalResponse<R>;
+    /// Whether `respond` answers to an overlap in the same way however often and however far apart it is asked on a
+    /// monotone path (rate-independent laws without jumps).
+    const PATH_ONLY: bool = true;
 
-    /// Coefficient of the law's own dashpot [kg/s]; most laws leave viscosity to the viscous law.
-    #[inline(always)]
-    fn dashpot<R: Real>(&self, _pair: &Pair<R>) -> R {
-        R::zero()
+    /// The answer to a motion; updates the memory. It is asked as long as the bodies are within the law's
+    /// [range](Self::interaction_range), and once more when they have left it: then the force must be zero, and the
+    /// memory what the law wants to know when they meet again, zero for a contact that never was.
+    fn respond<R: Real>(&self, motion: &NormalMotion<R>, memory: &mut Self::Memory<R>) -> NormalResponse<R>;
+
+    /// How far beyond touching the law acts [m]: on approach, or on separation. It must not fall when radii grow.
+    fn interaction_range(&self, _pair: &Pair<f64>) -> f64 {
+        0.0
+    }
+
+    /// Coefficient of the law's own dashpot, at the most [kg/s]; most laws leave viscosity to the viscous law.
+    fn dashpot(&self, _pair: &Pair<f64>) -> f64 {
+        0.0
     }
 
     /// The name of the branch on which the point (overlap [m], memory) lies, and its number, which
-    /// differs between branches: where it changes, the force may have a kink. The memory may be the
-    /// one before or the one after the response at that overlap.
+    /// differs between branches: where it changes, the force may have a kink or a jump. Zero is the number of a contact
+    /// that does not act. The memory may be the one before or the one after the response at that overlap.
     fn branch(&self, pair: &Pair<f64>, overlap: f64, memory: &Self::Memory<f64>) -> (u8, &'static str);
 
-    /// The steepest slope |df/dδ| of any branch [N/m].
-    fn max_stiffness(&self, pair: &Pair<f64>) -> f64;
+    /// The stiffness [N/m] that the time step must resolve: the steepest slope |df/dδ| of any branch, or where there is
+    /// none, the slope under the `expected` loading.
+    fn max_stiffness(&self, pair: &Pair<f64>, expected: &ExpectedLoading) -> f64;
+
+    /// Whether [`max_stiffness`](Self::max_stiffness) bounds the slope of every branch. Where it does not, the engine
+    /// watches the stiffness of the contacts that there are.
+    const STIFFNESS_IS_BOUNDED: bool = true;
+
+    /// Radius of the contact area under the `expected` loading [m]; zero for laws that know none.
+    fn expected_contact_radius(&self, _pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
+        0.0
+    }
+
+    /// The energy [J] that figures of the papers call the potential of a branch, where it is not the energy that
+    /// unloading gives back (S1 Fig. 15).
+    fn branch_potential(
+        &self,
+        _branch: u8,
+        _motion: &NormalMotion<f64>,
+        _memory: &Self::Memory<f64>,
+    ) -> Option<f64> {
+        None
+    }
+
+    /// The largest overlap that the contact remembers [m], if the law keeps one.
+    fn remembered_overlap(&self, _memory: &Self::Memory<f64>) -> Option<f64> {
+        None
+    }
+}
+
+/// A law that stands in the list of normal laws.
+pub trait Listed: Sized {
+    /// The law, where `normal` is this one.
+    fn of(normal: &Normal) -> Option<&Self>;
+}
+
+/// Where the answer of the normal law comes from.
+pub trait NormalSource<R: Real> {
+    /// Number of columns of its memory, where it is known at compile time.
+    const COLUMNS: Option<usize>;
+    /// Whether the contact is a [common](crate::ContactModel::is_common) one.
+    const COMMON: bool;
+    /// The answer; updates the memory.
+    fn respond<C: Columns<R> + ?Sized>(&self, motion: &NormalMotion<R>, columns: &mut C)
+    -> NormalResponse<R>;
+}
+
+/// A law whose type is known at compile time, in a loop for common contacts.
+#[derive(Clone, Copy, Debug)]
+pub struct Inlined<N>(pub N);
+
+impl<R: Real, N: NormalLaw> NormalSource<R> for Inlined<N> {
+    const COLUMNS: Option<usize> = Some(<N::Memory<f64> as Memory<f64>>::COLUMNS);
+    const COMMON: bool = true;
+
+    #[inline(always)]
+    fn respond<C: Columns<R> + ?Sized>(
+        &self,
+        motion: &NormalMotion<R>,
+        columns: &mut C,
+    ) -> NormalResponse<R> {
+        answer(&self.0, motion, columns)
+    }
+}
+
+/// An answer that has been computed already, memory included.
+#[derive(Clone, Copy, Debug)]
+pub struct Computed<'a, R: Real>(pub &'a NormalResponse<R>);
+
+impl<R: Real> NormalSource<R> for Computed<'_, R> {
+    const COLUMNS: Option<usize> = None;
+    const COMMON: bool = false;
+
+    #[inline(always)]
+    fn respond<C: Columns<R> + ?Sized>(
+        &self,
+        _motion: &NormalMotion<R>,
+        _columns: &mut C,
+    ) -> NormalResponse<R> {
+        *self.0
+    }
+}
+
+/// The answer of a law that keeps its memory in the first of the `columns`.
+#[inline(always)]
+pub fn answer<R: Real, N: NormalLaw>(
+    law: &N,
+    motion: &NormalMotion<R>,
+    columns: &mut (impl Columns<R> + ?Sized),
+) -> NormalResponse<R> {
+    let mut before: N::Memory<R> = memory::load(columns, 0);
+    let answer = law.respond(motion, &mut before);
+    memory::store(&before, columns, 0);
+    answer
 }
 
 /// Something to be done with a law whose type is only known at run time.
@@ -85,30 +153,189 @@ pub trait NormalLawVisitor {
     /// What comes of it.
     type Output;
     /// Does it.
+    fn visit<N: NormalLaw>(self, law: &N) -> Self::Output;
+}
+
+/// Something to be done with the law of a common contact.
+pub trait CommonLawVisitor {
+    /// What comes of it.
+    type Output;
+    /// Does it.
     fn visit<N: NormalLaw>(self, law: N) -> Self::Output;
 }
 
 macro_rules! normal_laws {
-    ($($law:ident),* $(,)?) => {
+    (common: $($common:ident),*; others: $($other:ident),*) => {
         law_list! {
             /// Any normal law of the catalogue.
-            Normal: $($law),*
+            Normal: $($common,)* $($other),*
         }
 
         impl Normal {
             /// Hands the law, with its own type, to the visitor.
+            #[inline(always)]
             pub fn accept<V: NormalLawVisitor>(&self, visitor: V) -> V::Output {
-                match self { $(Self::$law(law) => visitor.visit(*law),)* }
+                match self {
+                    $(Self::$common(law) => visitor.visit(law),)*
+                    $(Self::$other(law) => visitor.visit(law),)*
+                }
+            }
+
+            /// Hands the law to the visitor if it is one of those that loops for common contacts are compiled for;
+            /// otherwise gives the visitor back.
+            pub fn accept_common<V: CommonLawVisitor>(&self, visitor: V) -> Result<V::Output, V> {
+                match self {
+                    $(Self::$common(law) => Ok(visitor.visit(*law)),)*
+                    _ => Err(visitor),
+                }
+            }
+
+            /// Whether loops for common contacts are compiled for the law.
+            pub const fn is_common(&self) -> bool {
+                matches!(self, $(Self::$common(_))|*)
             }
         }
 
-        $(impl From<$law> for Normal {
-            fn from(law: $law) -> Self {
-                Self::$law(law)
+        normal_laws!(@listed $($common,)* $($other),*);
+
+        $(impl From<$common> for Normal {
+            fn from(law: $common) -> Self {
+                Self::$common(law)
+            }
+        })*
+        $(impl From<$other> for Normal {
+            fn from(law: $other) -> Self {
+                Self::$other(law)
+            }
+        })*
+    };
+    (@listed $($law:ident),*) => {
+        $(impl Listed for $law {
+            #[inline(always)]
+            fn of(normal: &Normal) -> Option<&Self> {
+                match normal {
+                    Normal::$law(law) => Some(law),
+                    _ => None,
+                }
             }
         })*
     };
 }
 
-// The list of normal laws: a new one is its file and its name here.
-normal_laws![Linear, Luding];
+// The list of normal laws: a new one is its file and its name here, among the others. Loops are compiled once more for
+// each common law, for every level of resistance and instruction set; all others share one loop and are called through
+// pointers (decision 13).
+normal_laws![common: Linear, Luding; others: Hertz, Jkr];
+
+macro_rules! forwarded {
+    ($(#[$doc:meta])* $name:ident($($argument:ident: $type:ty),*) -> $output:ty) => {
+        impl Normal {
+            $(#[$doc])*
+            pub fn $name(&self, $($argument: &$type),*) -> $output {
+                struct Visitor<'a>($(&'a $type),*);
+                impl NormalLawVisitor for Visitor<'_> {
+                    type Output = $output;
+                    fn visit<N: NormalLaw>(self, law: &N) -> $output {
+                        let Self($($argument),*) = self;
+                        law.$name($($argument),*)
+                    }
+                }
+                self.accept(Visitor($($argument),*))
+            }
+        }
+    };
+}
+
+forwarded!(
+    /// See [`NormalLaw::interaction_range`].
+    interaction_range(pair: Pair) -> f64
+);
+forwarded!(
+    /// See [`NormalLaw::dashpot`].
+    dashpot(pair: Pair) -> f64
+);
+forwarded!(
+    /// See [`NormalLaw::max_stiffness`].
+    max_stiffness(pair: Pair, expected: ExpectedLoading) -> f64
+);
+forwarded!(
+    /// See [`NormalLaw::expected_contact_radius`].
+    expected_contact_radius(pair: Pair, expected: ExpectedLoading) -> f64
+);
+
+impl Normal {
+    /// See [`NormalLaw::STIFFNESS_IS_BOUNDED`].
+    pub fn stiffness_is_bounded(&self) -> bool {
+        struct Bounded;
+        impl NormalLawVisitor for Bounded {
+            type Output = bool;
+            fn visit<N: NormalLaw>(self, _law: &N) -> bool {
+                N::STIFFNESS_IS_BOUNDED
+            }
+        }
+        self.accept(Bounded)
+    }
+
+    /// See [`NormalLaw::branch`]; the law's memory stands in the first of the `columns`.
+    pub fn branch(&self, pair: &Pair, overlap: f64, columns: &[f64]) -> (u8, &'static str) {
+        self.accept(Look { columns, of: (pair, overlap) })
+    }
+
+    /// See [`NormalLaw::branch_potential`].
+    pub fn branch_potential(&self, branch: u8, motion: &NormalMotion<f64>, columns: &[f64]) -> Option<f64> {
+        self.accept(Look { columns, of: (branch, motion) })
+    }
+
+    /// See [`NormalLaw::remembered_overlap`].
+    pub fn remembered_overlap(&self, columns: &[f64]) -> Option<f64> {
+        self.accept(Look { columns, of: () })
+    }
+}
+
+/// A look at a law with a memory in columns.
+struct Look<'a, T> {
+    columns: &'a [f64],
+    of: T,
+}
+
+impl NormalLawVisitor for Look<'_, (&Pair, f64)> {
+    type Output = (u8, &'static str);
+    fn visit<N: NormalLaw>(self, law: &N) -> Self::Output {
+        law.branch(self.of.0, self.of.1, &memory::load(self.columns, 0))
+    }
+}
+
+impl NormalLawVisitor for Look<'_, (u8, &NormalMotion<f64>)> {
+    type Output = Option<f64>;
+    fn visit<N: NormalLaw>(self, law: &N) -> Self::Output {
+        law.branch_potential(self.of.0, self.of.1, &memory::load(self.columns, 0))
+    }
+}
+
+impl NormalLawVisitor for Look<'_, ()> {
+    type Output = Option<f64>;
+    fn visit<N: NormalLaw>(self, law: &N) -> Self::Output {
+        law.remembered_overlap(&memory::load(self.columns, 0))
+    }
+}
+
+impl<R: Real> NormalSource<R> for Normal {
+    const COLUMNS: Option<usize> = None;
+    const COMMON: bool = false;
+
+    fn respond<C: Columns<R> + ?Sized>(
+        &self,
+        motion: &NormalMotion<R>,
+        columns: &mut C,
+    ) -> NormalResponse<R> {
+        struct Answer<'a, R: Real, C: ?Sized>(&'a NormalMotion<R>, &'a mut C);
+        impl<R: Real, C: Columns<R> + ?Sized> NormalLawVisitor for Answer<'_, R, C> {
+            type Output = NormalResponse<R>;
+            #[inline(always)]
+            fn visit<N: NormalLaw>(self, law: &N) -> NormalResponse<R> {
+                answer(law, self.0, self.1)
+            }
+        }
+        self.accept(Answer(motion, columns))
+    }
+}

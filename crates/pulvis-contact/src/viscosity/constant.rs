@@ -49,7 +49,7 @@ impl ViscousLaw for Constant {
         R::splat(self.gamma_0)
     }
 
-    fn largest_coefficient(&self, _pair: &Pair<f64>) -> f64 {
+    fn largest_coefficient(&self, _pair: &Pair<f64>, _max_stiffness: f64) -> f64 {
         self.gamma_0
     }
 }

@@ -52,7 +52,7 @@ impl ViscousLaw for Hardening {
         R::splat(self.gamma_0) * normal.hardening
     }
 
-    fn largest_coefficient(&self, _pair: &Pair<f64>) -> f64 {
+    fn largest_coefficient(&self, _pair: &Pair<f64>, _max_stiffness: f64) -> f64 {
         self.gamma_0
     }
 }

@@ -12,21 +12,26 @@ mod hardening;
 mod none;
 mod overlap_power;
 mod restitution;
+mod tsuji;
 
 pub use constant::Constant;
 pub use hardening::Hardening;
 pub use none::None;
 pub use overlap_power::OverlapPower;
 pub use restitution::Restitution;
+pub use tsuji::Tsuji;
 
-/// A dashpot: force γ dδ/dt while δ > 0.
+/// A dashpot: force γ dδ/dt while the bodies are in contact.
 pub trait ViscousLaw: Law {
     /// The coefficient γ [kg/s] at `overlap` δ > 0 [m], given what the normal law answered there.
     fn coefficient<R: Real>(&self, pair: &Pair<R>, overlap: R, normal: &NormalResponse<R>) -> R;
 
     /// The largest coefficient [kg/s] that the pair can meet up to the overlap that the normal law takes
-    /// as its scale.
-    fn largest_coefficient(&self, pair: &Pair<f64>) -> f64;
+    /// as its scale, where its elastic stiffness is at most `max_stiffness` [N/m].
+    fn largest_coefficient(&self, pair: &Pair<f64>, max_stiffness: f64) -> f64;
+
+    /// Whether the coefficient follows the elastic stiffness of the normal law.
+    const NEEDS_STIFFNESS: bool = false;
 }
 
 macro_rules! viscous_laws {
@@ -44,12 +49,17 @@ macro_rules! viscous_laws {
             }
 
             /// See [`ViscousLaw::largest_coefficient`].
-            pub fn largest_coefficient(&self, pair: &Pair<f64>) -> f64 {
-                match self { $(Self::$law(law) => law.largest_coefficient(pair),)* }
+            pub fn largest_coefficient(&self, pair: &Pair<f64>, max_stiffness: f64) -> f64 {
+                match self { $(Self::$law(law) => law.largest_coefficient(pair, max_stiffness),)* }
+            }
+
+            /// See [`ViscousLaw::NEEDS_STIFFNESS`].
+            pub fn needs_stiffness(&self) -> bool {
+                match self { $(Self::$law(_) => $law::NEEDS_STIFFNESS,)* }
             }
         }
     };
 }
 
 // The list of viscous laws: a new one is its file and its name here.
-viscous_laws![None, Constant, Hardening, OverlapPower, Restitution];
+viscous_laws![None, Constant, Hardening, OverlapPower, Restitution, Tsuji];

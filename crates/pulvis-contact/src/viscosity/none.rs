@@ -35,7 +35,7 @@ impl ViscousLaw for None {
         R::zero()
     }
 
-    fn largest_coefficient(&self, _pair: &Pair<f64>) -> f64 {
+    fn largest_coefficient(&self, _pair: &Pair<f64>, _max_stiffness: f64) -> f64 {
         0.0
     }
 }

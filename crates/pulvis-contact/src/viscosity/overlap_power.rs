@@ -71,7 +71,7 @@ impl ViscousLaw for OverlapPower {
         R::splat(self.gamma_0) * power
     }
 
-    fn largest_coefficient(&self, _pair: &Pair<f64>) -> f64 {
+    fn largest_coefficient(&self, _pair: &Pair<f64>, _max_stiffness: f64) -> f64 {
         self.gamma_0
     }
 }

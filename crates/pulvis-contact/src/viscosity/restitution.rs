@@ -64,7 +64,7 @@ impl ViscousLaw for Restitution {
         R::splat(self.coefficient_per_root_mass) * pair.reduced_mass().sqrt()
     }
 
-    fn largest_coefficient(&self, pair: &Pair<f64>) -> f64 {
+    fn largest_coefficient(&self, pair: &Pair<f64>, _max_stiffness: f64) -> f64 {
         self.coefficient_per_root_mass * pair.reduced_mass().sqrt()
     }
 }

@@ -2,10 +2,11 @@
 
 use std::borrow::Cow;
 
-use pulvis_contact::{ContactEnergies, ContactModel};
+use pulvis_contact::{ContactEnergies, ContactModel, MemoryLayout};
 use pulvis_math::{F64Array, Mask, Simd8, Vector3};
 
-use super::layout::{F64x8, Layout};
+/// Eight contacts at a time.
+pub(crate) type F64x8 = F64Array<8>;
 
 /// Contacts in a block.
 pub(crate) const WIDTH: usize = 8;
@@ -36,7 +37,11 @@ pub(crate) struct LaneIndices(pub(crate) [[u32; WIDTH]; 2]);
 #[derive(Clone, Debug)]
 pub(crate) struct ContactGroup {
     pub(crate) model: ContactModel,
-    pub(crate) layout: Layout,
+    pub(crate) layout: MemoryLayout,
+    /// How far beyond touching its contacts act [m].
+    pub(crate) interaction_range: f64,
+    /// The largest k/m_r of the last pass [1/s²], where the law does not bound its stiffness; otherwise zero.
+    pub(crate) rate_squared: f64,
     pub(crate) partner: Partner,
     /// Rows of the bodies of each block, times [`PACKED4_NUMBERS`].
     pub(crate) rows: Vec<LaneIndices>,
@@ -79,13 +84,21 @@ pub(crate) struct Candidate {
 
 impl ContactGroup {
     /// A group without contacts, in the memory of a `spare` one.
-    pub(crate) fn new(model: ContactModel, partner: Partner, spare: Option<Self>) -> Self {
-        let layout = Layout::of(&model);
+    pub(crate) fn new(
+        model: ContactModel,
+        interaction_range: f64,
+        partner: Partner,
+        spare: Option<Self>,
+    ) -> Self {
+        let layout = model.memory_layout();
+        let rate_squared = 0.0;
         let energies = ContactEnergies::default();
         let Some(mut group) = spare else {
             return Self {
                 model,
                 layout,
+                interaction_range,
+                rate_squared,
                 partner,
                 rows: Vec::new(),
                 sums: Vec::new(),
@@ -107,7 +120,7 @@ impl ContactGroup {
         group.crosses_boundary.clear();
         group.gap.clear();
         group.wall_forces.clear();
-        Self { model, layout, partner, energies, ..group }
+        Self { model, layout, interaction_range, rate_squared, partner, energies, ..group }
     }
 
     /// Number of candidate contacts.

@@ -1,6 +1,6 @@
 //! Which contact model rules which pair of materials.
 
-use pulvis_contact::ContactModel;
+use pulvis_contact::{ContactModel, Pair};
 
 use crate::particles::MaterialIndex;
 
@@ -9,12 +9,18 @@ use crate::particles::MaterialIndex;
 pub struct Interactions {
     materials: usize,
     models: Vec<Option<ContactModel>>,
+    /// How far beyond touching the contacts of each group act [m], between the largest bodies that there are.
+    ranges: Vec<f64>,
 }
 
 impl Interactions {
     /// No model yet for any pair of `materials` materials.
     pub fn new(materials: usize) -> Self {
-        Self { materials, models: vec![None; materials * materials] }
+        Self {
+            materials,
+            models: vec![None; materials * materials],
+            ranges: vec![0.0; materials * materials],
+        }
     }
 
     /// Sets the model of a pair of materials, in either order; the table grows where it must.
@@ -23,7 +29,8 @@ impl Interactions {
         if needed > self.materials {
             let mut grown = Self::new(needed);
             for (index, known) in self.models.iter().enumerate() {
-                grown.models[index / self.materials * needed + index % self.materials] = *known;
+                let moved = index / self.materials * needed + index % self.materials;
+                (grown.models[moved], grown.ranges[moved]) = (*known, self.ranges[index]);
             }
             *self = grown;
         }
@@ -60,9 +67,31 @@ impl Interactions {
         self.models.iter().flatten()
     }
 
-    /// The largest reach of all models [m].
-    pub fn interaction_range(&self) -> f64 {
-        self.models.iter().flatten().map(ContactModel::interaction_range).fold(0.0, f64::max)
+    /// Takes in the largest radius of the particles of each material [m], on which the range of some laws depends; a
+    /// material without particles is one of walls.
+    pub(crate) fn fit(&mut self, largest_radii: &[(MaterialIndex, f64)]) {
+        let radius = |material: usize| {
+            largest_radii.iter().find(|(known, _)| usize::from(*known) == material).map(|(_, radius)| *radius)
+        };
+        for (group, model) in self.models.iter().enumerate() {
+            let Some(model) = model else { continue };
+            let (one, other) = (radius(group / self.materials), radius(group % self.materials));
+            let between = one.zip(other).map(|(one, other)| Pair::spheres(1.0, 1.0, one, other));
+            // Either material may be that of a wall, at which the effective radius is largest.
+            let at_walls = [one, other].into_iter().flatten().map(|radius| Pair::wall(1.0, radius));
+            let ranges = at_walls.chain(between).map(|pair| model.interaction_range(&pair));
+            self.ranges[group] = ranges.fold(0.0, f64::max);
+        }
+    }
+
+    /// How far beyond touching the contacts of a group act [m].
+    pub(crate) fn range(&self, group: usize) -> f64 {
+        self.ranges[group]
+    }
+
+    /// The longest range of all groups [m].
+    pub(crate) fn longest_range(&self) -> f64 {
+        self.ranges.iter().copied().fold(0.0, f64::max)
     }
 }
 

@@ -1,6 +1,5 @@
 //! Listing the candidates of a chunk.
 
-use pulvis_contact::ContactModel;
 use pulvis_math::{Packed4, Vector3};
 
 use super::block::{Candidate, ContactGroup, Partner, WIDTH};
@@ -74,27 +73,27 @@ impl Listing {
         let rows = chunk.rows.start as u32..chunk.rows.end as u32;
         grid.for_each_row_range_pair_of(rows, skinned, |stretch| row_ranges.push(stretch));
         near.clear();
-        let margin = interactions.interaction_range();
+        let margin = interactions.longest_range();
         instructions.run(Search { row_ranges, positions: skinned, images, margin, near });
         // What has no model is never near.
-        let interaction_range =
-            |group| interactions.model(group).map_or(f64::NEG_INFINITY, ContactModel::interaction_range);
-        let ranges: Vec<f64> = (0..interactions.groups()).map(interaction_range).collect();
+        let range =
+            |group| interactions.model(group).map_or(f64::NEG_INFINITY, |_| interactions.range(group));
+        let ranges: Vec<f64> = (0..interactions.groups()).map(range).collect();
         let bounds = GAP_CLASSES.map(|bound| bound * skin.thickest);
         let skin_of = |row: u32| skinned[row as usize].scalar - particles.position[row as usize].scalar;
         let far = ranges.len() * CLASSES;
         classes.clear();
-        classes.extend(near.iter_mut().map(|Near { rows: [one, other], gap }| {
-            let group = interactions.group(material[*one as usize], material[*other as usize]);
-            // So far between skins.
-            *gap -= ranges[group];
-            let skins_meet = *gap < 0.0;
-            *gap += skin_of(*one) + skin_of(*other);
+        classes.extend(near.iter_mut().map(|pair| {
+            let [one, other] = pair.rows;
+            let group = interactions.group(material[one as usize], material[other as usize]);
+            let between_skins = pair.gap - ranges[group];
+            // From here on the gap is that of the bodies themselves to the range of their contact.
+            pair.gap = between_skins + (skin_of(one) + skin_of(other));
             // Without branches: gaps follow no pattern.
-            let class: usize = bounds.iter().map(|bound| usize::from(*gap > *bound)).sum();
-            let [first, second] = [*one, *other].map(|row| skinned[row as usize].vector);
+            let class: usize = bounds.iter().map(|bound| usize::from(pair.gap > *bound)).sum();
+            let [first, second] = [one, other].map(|row| skinned[row as usize].vector);
             let class = 2 * class + usize::from(images.are_crossed(first - second));
-            (if skins_meet { group * CLASSES + class } else { far }) as u32
+            (if between_skins < 0.0 { group * CLASSES + class } else { far }) as u32
         }));
         counting_sort(classes, far + 1, &mut self.class_starts, &mut self.order);
     }
@@ -130,7 +129,8 @@ impl Listing {
                     Candidate { rows: [other, one], sums: [others, own], gap, crosses_boundary }
                 }
             }));
-            let mut group = ContactGroup::new(model, Partner::Particle, spare.next());
+            let mut group =
+                ContactGroup::new(model, around.interactions.range(index), Partner::Particle, spare.next());
             let number = memory.layout_number(&group);
             group.reserve(candidates.len());
             for block in candidates.chunks(WIDTH) {
@@ -156,14 +156,15 @@ impl Listing {
         for (wall_number, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.present) {
             for &material in around.materials {
                 let Some(&model) = interactions.get(material, wall.material) else { continue };
+                let range = interactions.range(interactions.group(material, wall.material));
                 let (group, number) =
                     groups[interactions.group(material, wall.material)].get_or_insert_with(|| {
-                        let group = ContactGroup::new(model, Partner::Wall, spare.next());
+                        let group = ContactGroup::new(model, range, Partner::Wall, spare.next());
                         let number = memory.layout_number(&group);
                         (group, number)
                     });
                 group.wall_forces.resize(walls.len(), Vector3::zero());
-                let touch = wall.offset() + model.interaction_range();
+                let touch = wall.offset() + range;
                 candidates.clear();
                 for row in chunk.rows.clone().filter(|&row| particles.material[row] == material) {
                     let Packed4 { vector, scalar } = particles.position[row];

@@ -6,7 +6,6 @@ mod deferred;
 mod force_pass;
 mod interactions;
 mod kernel;
-mod layout;
 mod listing;
 mod rebuild;
 mod records;

@@ -2,9 +2,10 @@
 
 use std::borrow::Cow;
 
+use pulvis_contact::MemoryLayout;
+
 use super::block::{ContactGroup, Partner};
 use super::chunk::Chunk;
-use super::layout::Layout;
 use crate::thread_pool::ThreadPool;
 
 /// The memory of all contacts that remember anything, by the rows that their bodies had when it was
@@ -15,8 +16,8 @@ pub(crate) struct MemoryStore {
     chunks: Vec<ChunkMemory>,
     /// Rows of a chunk, but for the last one.
     length: u32,
-    /// The layouts that records are written with, and the names of their normal laws.
-    layouts: Vec<(Layout, &'static str)>,
+    /// The layouts that records are written with.
+    layouts: Vec<MemoryLayout>,
 }
 
 /// The index of a group's layout among those of a store; none if nothing was written with it.
@@ -55,7 +56,7 @@ impl MemoryStore {
         self.layouts.clear();
         for group in chunks.iter().flat_map(|chunk| &chunk.groups) {
             if self.layout_number(group).is_none() {
-                self.layouts.push(layout_of(group));
+                self.layouts.push(group.layout);
             }
         }
         let mut memories = std::mem::take(&mut self.chunks);
@@ -66,8 +67,7 @@ impl MemoryStore {
 
     /// The number that [`find`](Self::find) asks for, for all contacts of a group.
     pub(crate) fn layout_number(&self, group: &ContactGroup) -> LayoutNumber {
-        let layout = layout_of(group);
-        self.layouts.iter().position(|known| *known == layout).map(|number| number as u32)
+        self.layouts.iter().position(|known| *known == group.layout).map(|number| number as u32)
     }
 
     /// Memory [byte].
@@ -90,14 +90,9 @@ impl MemoryStore {
         if Some(layout) == number {
             return records.get(..group.layout.columns()).map(Cow::from);
         }
-        let (before, law) = &self.layouts[layout as usize];
-        let same_law = *law == group.model.normal.entry().name;
-        Some(group.layout.translate(before, &records[..before.columns()], same_law).into())
+        let before = &self.layouts[layout as usize];
+        Some(group.layout.translate(before, &records[..before.columns()]).into())
     }
-}
-
-fn layout_of(group: &ContactGroup) -> (Layout, &'static str) {
-    (group.layout, group.model.normal.entry().name)
 }
 
 impl ChunkMemory {

@@ -1,6 +1,6 @@
 //! Contacts as others see them: one at a time, with forces, for output and analysis.
 
-use pulvis_contact::{ContactKinematics, Memory, NormalLaw, NormalLawVisitor, Pair, resistance};
+use pulvis_contact::{ContactKinematics, MemoryLayout, Pair};
 use pulvis_math::Vector3;
 
 use super::block::{ContactGroup, Partner};
@@ -19,7 +19,7 @@ pub enum ContactPartner {
 
 /// One contact at the present time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactView {
+pub struct ContactView<'a> {
     /// The first body.
     pub first: ParticleId,
     /// The second body.
@@ -35,8 +35,10 @@ pub struct ContactView {
     pub force: Vector3,
     /// Its part along the normal, repulsion positive [N].
     pub normal_force: f64,
-    /// First column of the normal law's memory (Luding: largest overlap), zero where it has none [m].
-    pub memory: f64,
+    /// What the contact remembers, column by column as `layout` names them.
+    pub memory: &'a [f64],
+    /// The names and units of its columns.
+    pub layout: &'a MemoryLayout,
 }
 
 pub(crate) struct Views<'a> {
@@ -49,50 +51,41 @@ pub(crate) struct Views<'a> {
 
 /// Hands every contact of a group that acts to `see`. The forces are computed anew from a copy of the
 /// memory, over a step of no duration, so that looking changes nothing.
-pub(crate) fn view_contacts(views: Views<'_>, see: &mut dyn FnMut(&ContactView)) {
-    let normal = views.group.model.normal;
-    normal.accept(Looking { views, see });
-}
-
-struct Looking<'a, 'b> {
-    views: Views<'a>,
-    see: &'b mut dyn FnMut(&ContactView),
-}
-
-impl NormalLawVisitor for Looking<'_, '_> {
-    type Output = ();
-    fn visit<N: NormalLaw>(self, law: N) {
-        let group = self.views.group;
-        for block in (0..group.rows.len()).filter(|&block| group.active[block]) {
-            for lane in 0..group.occupancy(block) {
-                if let Some(view) = self.views.look(&law, block, lane) {
-                    (self.see)(&view);
-                }
+pub(crate) fn view_contacts(views: Views<'_>, see: &mut dyn FnMut(&ContactView<'_>)) {
+    let group = views.group;
+    let (mut memory, mut after) = (Vec::new(), Vec::new());
+    for block in (0..group.rows.len()).filter(|&block| group.active[block]) {
+        for lane in 0..group.occupancy(block) {
+            memory.clear();
+            memory.extend(group.columns(block).iter().map(|column| column.0[lane]));
+            after.clone_from(&memory);
+            if let Some(view) = views.look(block, lane, &memory, &mut after) {
+                see(&view);
             }
         }
     }
 }
 
-impl Views<'_> {
-    fn look<N: NormalLaw>(&self, law: &N, block: usize, lane: usize) -> Option<ContactView> {
+impl<'a> Views<'a> {
+    fn look<'b>(
+        &self,
+        block: usize,
+        lane: usize,
+        memory: &'b [f64],
+        after: &mut [f64],
+    ) -> Option<ContactView<'b>>
+    where
+        'a: 'b,
+    {
         let group = self.group;
         let seen = self.geometry(group.first_row(block, lane) as usize, block, lane)?;
-        let laws = &group.model.laws;
-        if seen.motion.overlap <= -laws.noncontact.interaction_range() {
+        if seen.motion.overlap <= -group.interaction_range {
             return None;
         }
-        let mut memory = group.layout.load_one::<N::Memory<f64>>(group.columns(block), lane);
-        let answer =
-            laws.respond::<f64, N, { resistance::ALL }>(law, &seen.pair, &seen.motion, 0.0, &mut memory);
+        let answer = group.model.respond(&seen.pair, &seen.motion, 0.0, after);
         if seen.motion.overlap <= 0.0 && answer.force == Vector3::zero() {
             return None;
         }
-        let mut first_column = 0.0;
-        memory.normal.store(|column, value| {
-            if column == 0 {
-                first_column = value;
-            }
-        });
         Some(ContactView {
             first: seen.first,
             second: seen.second,
@@ -101,7 +94,8 @@ impl Views<'_> {
             overlap: seen.motion.overlap,
             force: answer.force,
             normal_force: answer.normal_force,
-            memory: first_column,
+            memory,
+            layout: &group.layout,
         })
     }
 

@@ -123,7 +123,7 @@ impl Simulation {
         self.skin.renew(&self.particles, self.time_step, &self.pool);
         self.skin.renew_walls(&self.walls);
         let (grid, order) =
-            CellGrid::sort(&self.domain, self.skin.positions(), self.interactions.interaction_range());
+            CellGrid::sort(&self.domain, self.skin.positions(), self.interactions.longest_range());
         self.particles.reorder(&order, &self.pool);
         self.skin.reorder(&order, &self.pool);
         match former {

@@ -64,6 +64,8 @@ pub struct Simulation {
     pool: ThreadPool,
     instructions: InstructionSet,
     accounting: bool,
+    /// Whether all laws are called through pointers.
+    pointers: bool,
     /// Where the time goes, if anybody wants to know; up to the last list of candidates.
     phases: Option<Phases>,
     /// The materials of all particles, each once.
@@ -163,6 +165,7 @@ impl Simulation {
             pool: ThreadPool::default(),
             instructions: InstructionSet::widest(),
             accounting: true,
+            pointers: false,
             phases: None,
             materials: Vec::new(),
             outcomes: Vec::new(),
@@ -179,10 +182,22 @@ impl Simulation {
         simulation
     }
 
+    /// Lists the materials of all particles, and fits the ranges of contacts to the largest particles of each.
     fn list_materials(&mut self) {
         self.materials.clone_from(&self.particles.material);
         self.materials.sort_unstable();
         self.materials.dedup();
+        self.fit_interactions();
+    }
+
+    fn fit_interactions(&mut self) {
+        let mut largest: Vec<(MaterialIndex, f64)> = self.materials.iter().map(|&one| (one, 0.0)).collect();
+        for (material, &radius) in self.particles.material.iter().zip(&self.particles.radius) {
+            if let Ok(index) = self.materials.binary_search(material) {
+                largest[index].1 = largest[index].1.max(radius);
+            }
+        }
+        self.interactions.fit(&largest);
     }
 
     fn check_models(&self) -> Result<(), SetupError> {
@@ -227,7 +242,7 @@ impl Simulation {
     /// Two centres farther apart than this cannot act on each other before the next list [m].
     fn search_radius(&self) -> f64 {
         let largest = self.particles.radius.iter().copied().fold(0.0, f64::max);
-        2.0 * largest + self.interactions.interaction_range() + 2.0 * self.skin.thickest
+        2.0 * largest + self.interactions.longest_range() + 2.0 * self.skin.thickest
     }
 
     /// The area over which a wall's force is spread [m²], where it is known.

@@ -156,6 +156,7 @@ impl Simulation {
             ledger: self.accounting,
             stored: !onwards,
             instructions: self.instructions,
+            pointers: self.pointers,
         };
         let step = self.step_of_rows(time_step);
         let columns = Columns::of(&mut self.particles);

@@ -15,6 +15,7 @@ impl Simulation {
     /// Sets other contact models; contacts keep what both the old and the new law remember.
     pub fn set_interactions(&mut self, interactions: Interactions) -> Result<(), SetupError> {
         let before = std::mem::replace(&mut self.interactions, interactions);
+        self.fit_interactions();
         if let Err(error) = self.check_models().and_then(|()| self.check_periods()) {
             self.interactions = before;
             return Err(error);
@@ -36,6 +37,12 @@ impl Simulation {
     /// results are the same for all.
     pub fn set_instructions(&mut self, instructions: InstructionSet) {
         self.instructions = instructions;
+    }
+
+    /// Has all normal laws called through pointers, also those that have loops of their own: for measurements. The
+    /// results are the same.
+    pub fn set_law_pointers(&mut self, pointers: bool) {
+        self.pointers = pointers;
     }
 
     /// From now on takes the times of the parts of a step: see [`phases`](Self::phases).

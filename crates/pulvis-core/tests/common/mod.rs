@@ -4,7 +4,7 @@
 use pulvis_boundary::Cuboid;
 use pulvis_contact::normal::Interpolation;
 use pulvis_contact::viscosity::{Constant, Viscosity};
-use pulvis_contact::{ContactModel, Linear, Luding, SpringSlider};
+use pulvis_contact::{ContactModel, Friction, Linear, Luding, SpringSlider};
 use pulvis_core::walls::Wall;
 use pulvis_core::{Background, Domain, Interactions, Particle, Setup, Simulation, shortest_contact};
 use pulvis_math::Vector3;
@@ -27,9 +27,9 @@ pub fn elastic() -> ContactModel {
     ContactModel::frictionless(Linear::new(1000.0, 0.0))
 }
 
-pub fn slider(stiffness: f64, dashpot: f64, coefficient: f64) -> SpringSlider {
+pub fn slider(stiffness: f64, dashpot: f64, coefficient: f64) -> Friction {
     let (dynamic_coefficient, static_coefficient) = (coefficient, coefficient);
-    SpringSlider { stiffness, dashpot, dynamic_coefficient, static_coefficient }
+    SpringSlider { stiffness, dashpot, dynamic_coefficient, static_coefficient }.into()
 }
 
 /// A Luding contact with sliding, rolling and torsion, without dashpots. At 0.2 m/s two spheres of

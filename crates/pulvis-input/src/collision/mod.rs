@@ -146,7 +146,7 @@ fn case_at(document: &Document, path: &str, value: f64) -> Result<Option<Collisi
 fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, Reported> {
     let title = root.optional("title", Text);
     let collision = root.required_table("collision");
-    let contact = root.required_table("contact").and_then(read_contact);
+    let contact = root.required_table("contact").and_then(|table| read_contact(table, None));
     root.finish();
     let mut table = collision?;
     let bodies = read_bodies(&mut table);

@@ -71,7 +71,9 @@ pub(super) fn read_contacts(
                 let expected = "contacts between materials of particles, or of particles and walls";
                 return Err(table.refuse("", Problem::rule(found, expected)));
             }
-            let NamedContact { model, laws } = read_contact(table)?;
+            let [one, other] = pair.map(|index| materials.get(index).map(|material| &material.properties));
+            let properties = one.zip(other).map(|(one, other)| [one, other]);
+            let NamedContact { model, laws } = read_contact(table, properties)?;
             Ok(Contact { materials: pair, model, laws })
         });
         match read {

@@ -1,6 +1,7 @@
 //! Materials, and finding one by its name.
 
 use crate::context::Reported;
+use crate::material::{MaterialProperties, read_properties};
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
@@ -13,6 +14,8 @@ pub struct Material {
     pub name: String,
     /// Mass density [kg/m^3]; a material that particles are made of has one.
     pub density: Option<f64>,
+    /// What contact laws may ask for.
+    pub properties: MaterialProperties,
 }
 
 /// Reads `[materials.NAME]`. The second value tells whether all of them are fit for use; the names are
@@ -29,18 +32,21 @@ pub(super) fn read_materials(
     let mut fit = Ok(());
     let mut materials = Vec::new();
     for (name, table) in tables {
-        let (density, read) = match read_density(&name, table) {
-            Ok(density) => (density, Ok(())),
+        let ((density, properties), read) = match read_material(&name, table) {
+            Ok(material) => (material, Ok(())),
             // Not `None`, which would be reported once more for each group of particles.
-            Err(reported) => (Some(f64::NAN), Err(reported)),
+            Err(reported) => ((Some(f64::NAN), MaterialProperties::default()), Err(reported)),
         };
-        materials.push(Material { name, density });
+        materials.push(Material { name, density, properties });
         fit = fit.and(read);
     }
     Ok((materials, fit))
 }
 
-fn read_density(name: &str, mut table: TableReader<'_>) -> Result<Option<f64>, Reported> {
+fn read_material(
+    name: &str,
+    mut table: TableReader<'_>,
+) -> Result<(Option<f64>, MaterialProperties), Reported> {
     let plain = name.chars().all(|c| c.is_alphanumeric() || c == '_');
     let named = if plain {
         Ok(())
@@ -50,9 +56,10 @@ fn read_density(name: &str, mut table: TableReader<'_>) -> Result<Option<f64>, R
         Err(table.refuse("", Problem::rule(found, "only letters, digits and underscores")))
     };
     let density = table.optional("density", QuantityRule::of(Dimension::DENSITY).above(0.0));
+    let properties = read_properties(&mut table);
     table.finish();
     named?;
-    density
+    Ok((density?, properties?))
 }
 
 /// Reads the name of a material at `key` and gives its index.

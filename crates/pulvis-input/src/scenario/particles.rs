@@ -75,7 +75,7 @@ fn read_group(
 ) -> Result<PlacedGroup, Reported> {
     let material =
         read_material_name(&mut table, "material", materials).and_then(|index| match materials.get(index) {
-            Some(Material { name, density: None }) => {
+            Some(Material { name, density: None, .. }) => {
                 let found = format!("{name} has no density");
                 let expected = format!("`density` in [materials.{name}], because particles are made of it");
                 Err(table.refuse("material", Problem::rule(found, expected)))

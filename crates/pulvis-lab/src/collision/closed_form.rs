@@ -2,9 +2,8 @@
 
 use super::outcome::Regime;
 use super::problem::Problem;
-use pulvis_contact::normal::NormalResponse;
+use pulvis_contact::Viscosity;
 use pulvis_contact::theory::{self, LinearSpringDashpot};
-use pulvis_contact::{NormalLaw, NormalLawVisitor, Pair, Viscosity};
 use pulvis_input::collision::{CollisionCase, luding_pair};
 
 /// The closed form of a collision.
@@ -62,26 +61,13 @@ pub fn closed_form(case: &CollisionCase) -> Option<ClosedForm> {
 
 /// The coefficient of all dashpots if it is a constant [kg/s].
 fn dashpot(problem: &Problem<'_>) -> Option<f64> {
-    let own = problem.contact.normal.accept(OwnDashpot(problem.pair));
+    let own = problem.contact.normal.dashpot(&problem.pair);
     let viscosity = problem.contact.laws.viscosity;
-    let largest = viscosity.largest_coefficient(&problem.pair);
-    if largest == 0.0 {
-        return Some(own);
-    }
+    // Of constant dashpots the largest coefficient is the one that there is.
+    let largest = viscosity.largest_coefficient(&problem.pair, 0.0);
     match viscosity {
-        Viscosity::Constant(_) | Viscosity::Restitution(_) => {
-            Some(own + viscosity.coefficient(&problem.pair, 1.0, &NormalResponse::default()))
-        }
+        Viscosity::None(_) => Some(own),
+        Viscosity::Constant(_) | Viscosity::Restitution(_) => Some(own + largest),
         _ => None,
-    }
-}
-
-/// The dashpot that a normal law brings along [kg/s].
-struct OwnDashpot(Pair);
-
-impl NormalLawVisitor for OwnDashpot {
-    type Output = f64;
-    fn visit<N: NormalLaw>(self, law: N) -> f64 {
-        law.dashpot(&self.0)
     }
 }

@@ -1,8 +1,6 @@
 //! The relative motion of two bodies along the line of their centres.
 
-use pulvis_contact::{
-    ContactKinematics, ContactLaws, ContactMemory, ContactResponse, Memory, NormalLaw, Pair, resistance,
-};
+use pulvis_contact::{ContactKinematics, ContactModel, ContactResponse, MemoryLayout, NormalMotion, Pair};
 use pulvis_math::Vector3;
 
 use super::extrapolation::State;
@@ -19,11 +17,33 @@ pub(super) enum Phase {
     Contact,
 }
 
+/// More columns than any contact has.
+const MOST_COLUMNS: usize = 48;
+
+/// What a contact remembers, column by column.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Record {
+    columns: [f64; MOST_COLUMNS],
+    count: usize,
+}
+
+impl Record {
+    /// The columns.
+    pub fn columns(&self) -> &[f64] {
+        &self.columns[..self.count]
+    }
+
+    fn columns_mut(&mut self) -> &mut [f64] {
+        &mut self.columns[..self.count]
+    }
+}
+
 /// m_r d²δ/dt² = −f for one contact.
-pub(super) struct Dynamics<'c, N> {
-    pub law: N,
-    pub laws: &'c ContactLaws,
-    pub pair: Pair,
+pub(super) struct Dynamics {
+    /// Laws along the line of centres.
+    model: ContactModel,
+    layout: MemoryLayout,
+    pair: Pair,
 }
 
 /// The branches of the normal law and of the attraction at a point.
@@ -31,19 +51,31 @@ pub(super) struct Dynamics<'c, N> {
 pub(super) struct Branches {
     numbers: (u8, u8),
     normal: &'static str,
-    noncontact: &'static str,
-    /// Whether the attraction is at work.
+    apart: &'static str,
+    /// Whether bodies apart attract each other.
     pub attracted: bool,
 }
 
 impl Branches {
     /// The branch that rules: that of the normal law in contact, else that of the attraction.
     pub fn name(&self, phase: Phase) -> &'static str {
-        if phase == Phase::Contact { self.normal } else { self.noncontact }
+        if phase == Phase::Contact { self.normal } else { self.apart }
     }
 }
 
-impl<N: NormalLaw> Dynamics<'_, N> {
+impl Dynamics {
+    /// The motion of the bodies of `pair` under the laws of `model` along the line of their centres.
+    pub fn new(model: &ContactModel, pair: Pair) -> Self {
+        let mut model = *model;
+        (model.laws.sliding, model.laws.rolling, model.laws.torsion) = (None, None, None);
+        Self { layout: model.memory_layout(), model, pair }
+    }
+
+    /// The record of a contact that never was.
+    pub fn fresh(&self) -> Record {
+        Record { columns: [0.0; MOST_COLUMNS], count: self.layout.columns() }
+    }
+
     /// The overlap as the laws shall see it within `phase`, also where a trial strays beyond its end.
     fn within(phase: Phase, overlap: f64) -> f64 {
         match phase {
@@ -53,12 +85,7 @@ impl<N: NormalLaw> Dynamics<'_, N> {
     }
 
     /// Forces and energies; updates the memory.
-    pub fn respond(
-        &self,
-        phase: Phase,
-        motion: &Motion,
-        memory: &mut ContactMemory<f64, N::Memory<f64>>,
-    ) -> ContactResponse<f64> {
+    pub fn respond(&self, phase: Phase, motion: &Motion, memory: &mut Record) -> ContactResponse<f64> {
         let along = |value: f64| Vector3::new(value, 0.0, 0.0);
         let zero = along(0.0);
         let motion = ContactKinematics {
@@ -74,12 +101,12 @@ impl<N: NormalLaw> Dynamics<'_, N> {
             angular_velocity_i_mid: zero,
             angular_velocity_j_mid: zero,
         };
-        self.laws.respond::<f64, N, { resistance::NONE }>(&self.law, &self.pair, &motion, 0.0, memory)
+        self.model.respond(&self.pair, &motion, 0.0, memory.columns_mut())
     }
 
     /// Rates of the motion with the memory as it stands: laws remember turning points only, and no
     /// step passes one.
-    pub fn rate(&self, phase: Phase, motion: &Motion, memory: &ContactMemory<f64, N::Memory<f64>>) -> Motion {
+    pub fn rate(&self, phase: Phase, motion: &Motion, memory: &Record) -> Motion {
         let response = self.respond(phase, motion, &mut memory.clone());
         [
             motion[1],
@@ -89,49 +116,37 @@ impl<N: NormalLaw> Dynamics<'_, N> {
     }
 
     /// The branches at an overlap.
-    pub fn branches(
-        &self,
-        phase: Phase,
-        overlap: f64,
-        memory: &ContactMemory<f64, N::Memory<f64>>,
-    ) -> Branches {
+    pub fn branches(&self, phase: Phase, overlap: f64, memory: &Record) -> Branches {
         let overlap = Self::within(phase, overlap);
-        let normal = self.law.branch(&self.pair, overlap.max(0.0), &memory.normal);
-        let noncontact = self.laws.noncontact.branch(overlap, memory.touched);
+        let columns = memory.columns();
+        let normal = self.model.normal.branch(&self.pair, overlap, columns);
+        let attraction = &self.model.laws.noncontact;
+        let noncontact = attraction.branch(&self.pair, overlap, columns, self.layout.slots().attraction());
         Branches {
             numbers: (normal.0, noncontact.0),
+            // Beyond touching the attraction rules, unless the normal law acts there.
+            apart: if normal.0 != 0 { normal.1 } else { noncontact.1 },
             normal: normal.1,
-            noncontact: noncontact.1,
-            attracted: noncontact.0 != 0,
+            attracted: noncontact.0 != 0 || normal.0 != 0,
         }
     }
 
-    /// The energy that the papers' figures call potential (S1 Fig. 15): the work ½ f δ along branches
-    /// that start at the origin (k1 and −kc), what the elastic branch holds on all others [J].
+    /// The energy that the papers' figures call potential (S1 Fig. 15): what the normal law says of the branch, or
+    /// what its elastic branch stores [J].
     pub fn branch_potential(
         &self,
         branches: &Branches,
         overlap: f64,
         response: &ContactResponse<f64>,
-        memory: &ContactMemory<f64, N::Memory<f64>>,
+        memory: &Record,
     ) -> f64 {
-        if matches!(branches.normal, "k1" | "kc") && overlap > 0.0 {
-            let force = self.law.respond(&self.pair, overlap, &mut memory.normal.clone()).force;
-            0.5 * force * overlap
-        } else {
-            response.energies.elastic_normal
-        }
+        let motion = NormalMotion::at_rest(&self.pair, overlap);
+        let potential = self.model.normal.branch_potential(branches.numbers.0, &motion, memory.columns());
+        potential.unwrap_or(response.energies.elastic_normal)
     }
 
     /// The largest overlap that the law remembers, δ_max; `None` where it remembers none [m].
-    pub fn remembered_overlap(&self, memory: &ContactMemory<f64, N::Memory<f64>>) -> Option<f64> {
-        let column = N::ENTRY.memory.iter().position(|name| name.starts_with("overlap_max"))?;
-        let mut found = None;
-        memory.normal.store(|number, value| {
-            if number == column {
-                found = Some(value);
-            }
-        });
-        found
+    pub fn remembered_overlap(&self, memory: &Record) -> Option<f64> {
+        self.model.normal.remembered_overlap(memory.columns())
     }
 }

@@ -4,7 +4,7 @@
 use super::error::CollisionError;
 use super::outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
 use super::problem::Problem;
-use pulvis_contact::{Memory, NormalLaw};
+use pulvis_contact::NormalMotion;
 use pulvis_core::walls::Wall;
 use pulvis_core::{Background, Domain, Interactions, Particle, Setup, Simulation};
 use pulvis_input::collision::{Bodies, Sphere};
@@ -21,14 +21,13 @@ const AT_REST: f64 = 1e-24;
 ///
 /// # Errors
 /// The engine refuses the time step or loses a particle, or the motion does not end.
-pub(super) fn collide<N: NormalLaw>(
-    law: N,
+pub(super) fn collide(
     problem: &Problem<'_>,
     steps_per_contact: f64,
     observation: &Observation,
 ) -> Result<Collision, CollisionError> {
     let time_step = problem.shortest_time / steps_per_contact;
-    let mut run = Run::new(law, problem, time_step, observation)?;
+    let mut run = Run::new(problem, time_step, observation)?;
     while !run.over {
         run.step()?;
     }
@@ -45,8 +44,9 @@ struct Instant {
 }
 
 /// A collision under way.
-struct Run<'p, N: NormalLaw> {
-    law: N,
+struct Run<'p> {
+    /// What the contact remembers; zeros while it is none.
+    columns: Vec<f64>,
     problem: &'p Problem<'p>,
     observation: &'p Observation,
     simulation: Simulation,
@@ -62,15 +62,14 @@ struct Run<'p, N: NormalLaw> {
     over: bool,
 }
 
-impl<'p, N: NormalLaw> Run<'p, N> {
+impl<'p> Run<'p> {
     fn new(
-        law: N,
         problem: &'p Problem<'p>,
         time_step: f64,
         observation: &'p Observation,
     ) -> Result<Self, CollisionError> {
         let mut run = Self {
-            law,
+            columns: vec![0.0; problem.contact.memory_layout().columns()],
             problem,
             observation,
             simulation: Simulation::new(setup(problem, time_step, observation.phase))?,
@@ -85,7 +84,7 @@ impl<'p, N: NormalLaw> Run<'p, N> {
             course: Vec::new(),
             over: false,
         };
-        run.now = run.look();
+        run.take_in();
         run.record();
         Ok(run)
     }
@@ -97,10 +96,19 @@ impl<'p, N: NormalLaw> Run<'p, N> {
         }
         self.simulation.step()?;
         self.before = self.now;
-        self.now = self.look();
+        self.take_in();
         self.record();
         self.judge();
         Ok(())
+    }
+
+    /// Takes in the state of the simulation, and what the contact remembers.
+    fn take_in(&mut self) {
+        self.now = self.look();
+        let mut columns = std::mem::take(&mut self.columns);
+        columns.fill(0.0);
+        self.simulation.for_each_contact(&mut |contact| columns.copy_from_slice(contact.memory));
+        self.columns = columns;
     }
 
     /// Reads the state off the simulation.
@@ -183,21 +191,13 @@ impl<'p, N: NormalLaw> Run<'p, N> {
 
     /// The branch on which the bodies are, or that of the attraction where they are apart.
     fn branch(&self, overlap: f64) -> &'static str {
-        if overlap <= 0.0 {
-            return self.problem.contact.laws.noncontact.branch(overlap, 1.0).1;
+        let (contact, pair) = (self.problem.contact, &self.problem.pair);
+        let normal = contact.normal.branch(pair, overlap, &self.columns);
+        if overlap > 0.0 || normal.0 != 0 {
+            return normal.1;
         }
-        self.law.branch(&self.problem.pair, overlap, &self.memory(self.remembered())).1
-    }
-
-    /// The first column of the law's memory.
-    fn remembered(&self) -> f64 {
-        let mut memory = 0.0;
-        self.simulation.for_each_contact(&mut |contact| memory = contact.memory);
-        memory
-    }
-
-    fn memory(&self, first_column: f64) -> N::Memory<f64> {
-        N::Memory::<f64>::load(|column| if column == 0 { first_column } else { 0.0 })
+        let slots = *contact.memory_layout().slots();
+        contact.laws.noncontact.branch(pair, overlap, &self.columns, slots.attraction()).1
     }
 
     fn finish(mut self) -> Collision {
@@ -225,24 +225,18 @@ impl<'p, N: NormalLaw> Run<'p, N> {
     fn sample(&mut self) -> Sample {
         let ledger = self.simulation.ledger();
         let Instant { time, overlap, velocity, force } = self.now;
-        let first = self.remembered();
-        let through_origin = matches!(self.branch(overlap), "k1" | "kc") && overlap > 0.0;
-        let plastic = if through_origin {
-            let mut memory = self.memory(first);
-            0.5 * overlap * self.law.respond(&self.problem.pair, overlap, &mut memory).force
-        } else {
-            ledger.elastic_normal
-        };
-        let remembers = N::ENTRY.memory.first().is_some_and(|name| name.starts_with("overlap_max"));
+        let (normal, pair) = (&self.problem.contact.normal, &self.problem.pair);
+        let branch = normal.branch(pair, overlap, &self.columns).0;
+        let potential = normal.branch_potential(branch, &NormalMotion::at_rest(pair, overlap), &self.columns);
         Sample {
             time,
             overlap,
             velocity,
             force,
-            delta_max: if remembers { first } else { self.overlap_max },
+            delta_max: normal.remembered_overlap(&self.columns).unwrap_or(self.overlap_max),
             kinetic: self.problem.kinetic(velocity),
             potential_available: ledger.elastic_normal,
-            potential_plastic: plastic,
+            potential_plastic: potential.unwrap_or(ledger.elastic_normal),
             potential_attraction: ledger.adhesive,
             dissipated: ledger.dissipated(),
         }

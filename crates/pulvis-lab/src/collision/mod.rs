@@ -23,7 +23,6 @@ pub use picture::{figure, sampling_interval};
 pub use table::{COLUMNS, TRAJECTORY_COLUMNS, result_table, trajectory_table};
 
 use problem::Problem;
-use pulvis_contact::{NormalLaw, NormalLawVisitor};
 use pulvis_input::collision::{CollisionCase, CollisionScenario, Method};
 
 /// Computes one collision.
@@ -32,26 +31,9 @@ use pulvis_input::collision::{CollisionCase, CollisionScenario, Method};
 /// The motion does not end, or leaves the range of numbers.
 pub fn collide(case: &CollisionCase, observation: &Observation) -> Result<Collision, CollisionError> {
     let problem = Problem::new(case);
-    case.contact.normal.accept(Collide { problem: &problem, method: case.method, observation })
-}
-
-/// A collision for a law that is only known at run time.
-struct Collide<'c> {
-    problem: &'c Problem<'c>,
-    method: Method,
-    observation: &'c Observation,
-}
-
-impl NormalLawVisitor for Collide<'_> {
-    type Output = Result<Collision, CollisionError>;
-
-    fn visit<N: NormalLaw>(self, law: N) -> Self::Output {
-        match self.method {
-            Method::Exact => exact::collide(law, self.problem, self.observation),
-            Method::Engine { steps_per_contact } => {
-                engine::collide(law, self.problem, steps_per_contact, self.observation)
-            }
-        }
+    match case.method {
+        Method::Exact => exact::collide(&problem, observation),
+        Method::Engine { steps_per_contact } => engine::collide(&problem, steps_per_contact, observation),
     }
 }
 

@@ -18,12 +18,15 @@ pub(super) struct Problem<'c> {
 impl<'c> Problem<'c> {
     pub fn new(case: &'c CollisionCase) -> Self {
         let (i, j) = case.bodies.masses_and_radii();
+        // A law without a steepest slope takes its stiffness from what this collision will bring.
+        let mut expecting = case.contact;
+        expecting.laws.expected.speed = expecting.laws.expected.speed.max(case.velocity);
         Self {
             contact: &case.contact,
             bodies: &case.bodies,
             pair: case.bodies.pair(),
             velocity: case.velocity,
-            shortest_time: case.contact.shortest_contact_time(i, j),
+            shortest_time: expecting.shortest_contact_time(i, j),
         }
     }
 
@@ -34,13 +37,14 @@ impl<'c> Problem<'c> {
 
     /// How far beyond touching the contact acts [m].
     pub fn interaction_range(&self) -> f64 {
-        self.contact.interaction_range()
+        self.contact.interaction_range(&self.pair)
     }
 
-    /// Where the bodies begin to feel each other on approach: an attraction that remembers touch is
+    /// Where the bodies begin to feel each other on approach: an attraction that sets in with touch is
     /// not felt before it [m].
     pub fn start_overlap(&self) -> f64 {
-        if self.contact.laws.noncontact.remembers_touch() { 0.0 } else { 0.0 - self.interaction_range() }
+        let attraction = &self.contact.laws.noncontact;
+        if attraction.acts_on_approach() { 0.0 - attraction.interaction_range(&self.pair) } else { 0.0 }
     }
 
     /// The stiffness that belongs to the shortest time, m_r (π/t)² [N/m].

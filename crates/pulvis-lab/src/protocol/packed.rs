@@ -121,12 +121,10 @@ mod tests {
         };
         let plain = ContactModel::frictionless(Linear::new(100.0, 0.0));
         let mut sliding = plain;
-        sliding.laws.sliding = Some(SpringSlider {
-            stiffness: 10.0,
-            dashpot: 0.0,
-            dynamic_coefficient: 0.5,
-            static_coefficient: 0.5,
-        });
+        sliding.laws.sliding = Some(
+            SpringSlider { stiffness: 10.0, dashpot: 0.0, dynamic_coefficient: 0.5, static_coefficient: 0.5 }
+                .into(),
+        );
         // Six contacts a particle, three numbers of eight bytes each; blocks of eight are not all full.
         let more = size(sliding) - size(plain);
         assert!((144.0..160.0).contains(&more), "{more}");

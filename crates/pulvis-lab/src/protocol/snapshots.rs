@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pulvis_core::{ContactPartner, Simulation};
+use pulvis_core::{ContactPartner, ContactView, Simulation};
 use pulvis_io::IoError;
 use pulvis_io::vtk::{Column, ContactFrame, ParticleFrame, SeriesWriter};
 
@@ -48,14 +48,14 @@ impl Snapshots {
             Column::integer("coordination", &coordination),
         ];
         let particle_frame = ParticleFrame { positions: &positions, columns: &columns };
-        let contact_columns = [
+        let mut contact_columns = vec![
             Column::integer("id1", &contacts.first),
             Column::integer("id2", &contacts.second),
             Column::vector("force", &contacts.force),
             Column::scalar("normal_force", &contacts.normal_force),
             Column::scalar("overlap", &contacts.overlap),
-            Column::scalar("overlap_max", &contacts.memory),
         ];
+        contact_columns.extend(contacts.memory.iter().map(|(name, values)| Column::scalar(name, values)));
         let contact_frame = ContactFrame { ends: &contacts.ends, columns: &contact_columns };
         self.series.write(simulation.time(), &particle_frame, &contact_frame).map(|_| ())
     }
@@ -70,7 +70,8 @@ struct Contacts {
     force: Vec<[f64; 3]>,
     normal_force: Vec<f64>,
     overlap: Vec<f64>,
-    memory: Vec<f64>,
+    /// What contacts remember, by the names of the columns; NaN where a contact has no such column.
+    memory: Vec<(&'static str, Vec<f64>)>,
 }
 
 impl Contacts {
@@ -86,9 +87,27 @@ impl Contacts {
             contacts.force.push(contact.force.to_array());
             contacts.normal_force.push(contact.normal_force);
             contacts.overlap.push(contact.overlap);
-            contacts.memory.push(contact.memory);
+            contacts.remember(contact);
         });
+        for (_, values) in &mut contacts.memory {
+            values.resize(contacts.first.len(), f64::NAN);
+        }
         contacts
+    }
+
+    fn remember(&mut self, contact: &ContactView<'_>) {
+        let before = self.first.len() - 1;
+        for (name, &value) in contact.layout.names().zip(contact.memory) {
+            let name = name.split(' ').next().unwrap_or(name);
+            let known = self.memory.iter().position(|(known, _)| *known == name);
+            let index = known.unwrap_or_else(|| {
+                self.memory.push((name, Vec::new()));
+                self.memory.len() - 1
+            });
+            let values = &mut self.memory[index].1;
+            values.resize(before, f64::NAN);
+            values.push(value);
+        }
     }
 
     /// Touching contacts of each particle, walls included.

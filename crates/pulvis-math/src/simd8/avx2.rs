@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
 use super::operators::{lane_by_lane, octet_operators};
-use super::{Kernel, Packed4, Simd4, Simd8, side_by_side};
+use super::{Kernel, Packed4, Pointer, Routine, Simd4, Simd8, Task, side_by_side};
 use crate::array::F64Array;
 use crate::real::{Mask, Real};
 
@@ -259,5 +259,13 @@ impl Simd8 for Ymm2 {
     #[inline(always)]
     fn row_pairs(first: [Self; 4], second: [Self; 4]) -> [Self::Simd4Pair; 8] {
         side_by_side(Self::rows(first), Self::rows(second))
+    }
+
+    fn pointer<T: Task, P: Routine<T>>() -> Pointer<T, Self> {
+        #[target_feature(enable = "avx2")]
+        fn call<T: Task, P: Routine<T>>(data: &mut T::Data<'_, Ymm2>) {
+            P::call::<Ymm2>(data);
+        }
+        Pointer(call::<T, P>)
     }
 }

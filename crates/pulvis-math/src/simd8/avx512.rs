@@ -6,7 +6,7 @@ use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign
 
 use super::avx2::Ymm;
 use super::operators::{lane_by_lane, octet_operators};
-use super::{Kernel, Packed4, Simd4Pair, Simd8};
+use super::{Kernel, Packed4, Pointer, Routine, Simd4Pair, Simd8, Task};
 use crate::array::F64Array;
 use crate::real::{Mask, Real};
 
@@ -279,6 +279,14 @@ impl Simd8 for Zmm {
             highs(a_2_6, b_2_6),
             highs(a_3_7, b_3_7),
         ]
+    }
+
+    fn pointer<T: Task, P: Routine<T>>() -> Pointer<T, Self> {
+        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,avx2")]
+        fn call<T: Task, P: Routine<T>>(data: &mut T::Data<'_, Zmm>) {
+            P::call::<Zmm>(data);
+        }
+        Pointer(call::<T, P>)
     }
 }
 

@@ -134,6 +134,43 @@ pub trait Simd8: Real {
     fn rows(columns: [Self; 4]) -> [Self::Simd4; 8];
     /// The rows of two times four columns, side by side.
     fn row_pairs(first: [Self; 4], second: [Self; 4]) -> [Self::Simd4Pair; 8];
+    /// A routine compiled for the instruction set of this type.
+    fn pointer<T: Task, P: Routine<T>>() -> Pointer<T, Self>;
+}
+
+/// What a [`Routine`] works on, for any vector type.
+pub trait Task: 'static {
+    /// The data; vectors in it are handed over in memory.
+    type Data<'a, R: Simd8>;
+}
+
+/// A function that is compiled for every instruction set and called through a [`Pointer`]: what would otherwise be
+/// compiled into every [`Kernel`] that may need it is compiled once.
+pub trait Routine<T: Task> {
+    /// The function. As [`Kernel::run`], it and everything that it calls with values of type `R` must be
+    /// `#[inline(always)]`.
+    fn call<R: Simd8>(data: &mut T::Data<'_, R>);
+}
+
+/// A pointer to a [`Routine`] compiled for the instruction set of `R`.
+pub struct Pointer<T: Task, R: Simd8>(unsafe fn(&mut T::Data<'_, R>));
+
+impl<T: Task, R: Simd8> Clone for Pointer<T, R> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T: Task, R: Simd8> Copy for Pointer<T, R> {}
+
+impl<T: Task, R: Simd8> Pointer<T, R> {
+    /// Calls the routine.
+    #[inline(always)]
+    pub fn call(self, data: &mut T::Data<'_, R>) {
+        // SAFETY: a pointer comes from `Simd8::pointer`, and a vector type that needs instructions can be named as the
+        // parameter of a running kernel only, which runs where the processor has them.
+        unsafe { (self.0)(data) }
+    }
 }
 
 /// A loop that is compiled for every instruction set.

@@ -1,6 +1,6 @@
 //! Eight numbers in plain Rust, for every processor.
 
-use super::{Packed4, Simd4, Simd8, side_by_side};
+use super::{Packed4, Pointer, Routine, Simd4, Simd8, Task, side_by_side};
 use crate::array::F64Array;
 use crate::vector::Vector3;
 
@@ -70,5 +70,13 @@ impl Simd8 for F64Array<8> {
     #[inline(always)]
     fn row_pairs(first: [Self; 4], second: [Self; 4]) -> [Self::Simd4Pair; 8] {
         side_by_side(Self::rows(first), Self::rows(second))
+    }
+
+    fn pointer<T: Task, P: Routine<T>>() -> Pointer<T, Self> {
+        #[inline(never)]
+        fn call<T: Task, P: Routine<T>>(data: &mut T::Data<'_, F64Array<8>>) {
+            P::call::<F64Array<8>>(data);
+        }
+        Pointer(call::<T, P>)
     }
 }

@@ -1,10 +1,12 @@
 //! Blocks on their way through the loops: gathered, computed, added up.
 
-use pulvis_contact::{ContactEnergies, ContactKinematics, ContactLaws, NormalLaw, Pair, resistance};
-use pulvis_math::{Packed4, Simd4, Simd4Pair, Simd8, Vector3};
+use pulvis_contact::{
+    Columns, ContactEnergies, ContactInputs, ContactKinematics, ContactLaws, MemorySlots, Pair, levels,
+};
+use pulvis_math::{F64Array, Packed4, Simd4, Simd4Pair, Simd8, Vector3};
 
 use super::super::block::{LaneIndices, WIDTH};
-use super::super::layout::{F64x8, Layout};
+use super::normal::NormalCall;
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
 
@@ -13,9 +15,38 @@ use crate::shared::Shared;
 /// let it work on several blocks at a time, and need fewer registers.
 pub(super) const BATCH: usize = 2;
 
+/// Eight contacts at a time.
+type F64x8 = F64Array<8>;
+
+/// The columns of memory of one block.
+pub(super) struct BlockColumns<'a>(&'a mut [F64x8]);
+
+impl<'a> BlockColumns<'a> {
+    /// Those of `block` among the memory of a group with so many `columns` a block.
+    ///
+    /// # Safety
+    /// The memory holds that of the block.
+    #[inline(always)]
+    pub(super) unsafe fn of(memory: &'a mut [F64x8], block: usize, columns: usize) -> Self {
+        // SAFETY: the caller's.
+        Self(unsafe { memory.get_unchecked_mut(block * columns..(block + 1) * columns) })
+    }
+}
+
+impl<R: Simd8> Columns<R> for BlockColumns<'_> {
+    #[inline(always)]
+    fn get(&self, column: usize) -> R {
+        R::load(&self.0[column])
+    }
+    #[inline(always)]
+    fn set(&mut self, column: usize, value: R) {
+        value.store(&mut self.0[column]);
+    }
+}
+
 /// A block that has been gathered.
 #[derive(Clone, Copy)]
-pub(super) struct ContactInputs<R> {
+pub(super) struct GatheredBlock<R> {
     pub(super) block: usize,
     pub(super) pair: Pair<R>,
     pub(super) motion: ContactKinematics<R>,
@@ -30,16 +61,33 @@ struct ContactResponses<R> {
 }
 
 /// What the blocks of a group are computed with.
-pub(super) struct Response<N> {
-    pub(super) law: N,
+pub(super) struct Response<C> {
+    pub(super) call: C,
     pub(super) laws: ContactLaws,
-    pub(super) layout: Layout,
+    pub(super) slots: MemorySlots,
     /// The step that led to the present positions [s].
     pub(super) time_step: f64,
     /// Whether anything can be lost along the normal.
     pub(super) with_memory: bool,
-    /// Whether what contacts hold is asked for, beside what they lose.
+    /// Whether energies are summed up.
+    pub(super) ledger: bool,
+    /// Whether what contacts store is asked for, beside what they lose.
     pub(super) stored: bool,
+}
+
+/// What the blocks of a group add up to.
+#[derive(Clone, Copy)]
+pub(super) struct BlockSums<R> {
+    pub(super) energies: ContactEnergies<R>,
+    /// The largest k/m_r of the contacts [1/s²], where it is watched.
+    pub(super) rate_squared: R,
+}
+
+impl<R: Simd8> BlockSums<R> {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self { energies: ContactEnergies::default(), rate_squared: R::zero() }
+    }
 }
 
 /// Adds eight forces and torques to the sums, one after the other: several lanes may have the same index.
@@ -66,7 +114,7 @@ macro_rules! add_forces {
 
 /// Some blocks.
 pub(super) struct Batch<R> {
-    inputs: [ContactInputs<R>; BATCH],
+    blocks: [GatheredBlock<R>; BATCH],
     responses: [ContactResponses<R>; BATCH],
     count: usize,
 }
@@ -89,9 +137,9 @@ impl<R: Simd8> Batch<R> {
             angular_velocity_i_mid: none,
             angular_velocity_j_mid: none,
         };
-        let inputs = ContactInputs { block: 0, pair: Pair::from_sums(zero, zero), motion };
+        let block = GatheredBlock { block: 0, pair: Pair::from_sums(zero, zero), motion };
         let responses = ContactResponses { force: none, torque_i: none, torque_j: none };
-        Self { inputs: [inputs; BATCH], responses: [responses; BATCH], count: 0 }
+        Self { blocks: [block; BATCH], responses: [responses; BATCH], count: 0 }
     }
 
     #[inline(always)]
@@ -102,48 +150,48 @@ impl<R: Simd8> Batch<R> {
     /// Room for one more block. What nobody fills in of any block stays zero: what a contact has no use for
     /// is not written again and again.
     #[inline(always)]
-    pub(super) fn add(&mut self) -> &mut ContactInputs<R> {
+    pub(super) fn add(&mut self) -> &mut GatheredBlock<R> {
         self.count += 1;
-        &mut self.inputs[self.count - 1]
+        &mut self.blocks[self.count - 1]
     }
 
-    /// Computes all blocks, updates their `memory`, and adds their energies to `energies` if the ledger is
-    /// kept.
+    /// Computes all blocks, updates their `memory`, and adds up their energies if the ledger is kept.
     ///
     /// # Safety
     /// `memory` holds that of every block, as `response` lays it out.
     #[inline(always)]
-    pub(super) unsafe fn respond<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool>(
+    pub(super) unsafe fn respond<C: NormalCall<R>, const RESISTANCE: u8, const LEDGER: bool>(
         &mut self,
-        response: &Response<N>,
+        response: &mut Response<C>,
         memory: &mut [F64x8],
-        energies: &mut ContactEnergies<R>,
+        totals: &mut BlockSums<R>,
     ) {
-        let columns = response.layout.columns();
+        let columns = response.slots.columns();
+        response.call.prepare(&self.blocks[..self.count], memory);
         for index in 0..self.count {
-            let inputs = &self.inputs[index];
+            let GatheredBlock { block, pair, motion } = &self.blocks[index];
             // SAFETY: the caller's.
-            let memory =
-                unsafe { memory.get_unchecked_mut(inputs.block * columns..(inputs.block + 1) * columns) };
-            let mut before = response.layout.load::<R, N::Memory<R>, RESISTANCE>(memory);
-            let answer = response.laws.respond::<R, N, RESISTANCE>(
-                &response.law,
-                &inputs.pair,
-                &inputs.motion,
-                response.time_step,
-                &mut before,
+            let mut columns = unsafe { BlockColumns::of(memory, *block, columns) };
+            let inputs = ContactInputs { pair, motion, time_step: response.time_step };
+            let answer = response.laws.respond::<R, C::Source<'_>, _, RESISTANCE>(
+                &response.call.source(index),
+                &response.slots,
+                inputs,
+                &mut columns,
             );
-            response.layout.store::<R, N::Memory<R>, RESISTANCE>(&before, memory);
             self.responses[index] = ContactResponses {
                 force: answer.force,
                 torque_i: answer.torque_i,
                 torque_j: answer.torque_j,
             };
-            if LEDGER {
-                energies.add_dissipated::<RESISTANCE>(&answer.energies, response.with_memory);
-                // What is held is not even computed where nobody asks for it.
+            if let Some(stiffness) = response.call.stiffness(index) {
+                totals.rate_squared = totals.rate_squared.max(stiffness * pair.inverse_reduced_mass());
+            }
+            if LEDGER && response.ledger {
+                totals.energies.add_dissipated::<RESISTANCE>(&answer.energies, response.with_memory);
+                // What is stored is not even computed where nobody asks for it.
                 if response.stored {
-                    energies.add_stored(&answer.energies);
+                    totals.energies.add_stored(&answer.energies);
                 }
             }
         }
@@ -158,7 +206,7 @@ impl<R: Simd8> Batch<R> {
     /// A block, and the forces on its first bodies [N] once they have been computed.
     #[inline(always)]
     pub(super) fn force(&self, index: usize) -> (usize, Vector3<R>) {
-        (self.inputs[index].block, self.responses[index].force)
+        (self.blocks[index].block, self.responses[index].force)
     }
 
     /// Adds the forces and torques to `sums`, at the `slots` of each block; the batch is empty afterwards.
@@ -172,10 +220,10 @@ impl<R: Simd8> Batch<R> {
         sums: Shared<'_, ForceTorque>,
     ) {
         for index in 0..self.count {
-            let (block, answer) = (self.inputs[index].block, &self.responses[index]);
+            let (block, answer) = (self.blocks[index].block, &self.responses[index]);
             // SAFETY: the caller's.
             let [first, second] = unsafe { &slots.get_unchecked(block).0 };
-            if RESISTANCE == resistance::NONE {
+            if RESISTANCE == levels::NONE {
                 let forces = R::rows(columns_of(answer.force));
                 add_forces!(sums, first, plus, forces);
                 if PAIRS {

@@ -1,15 +1,17 @@
 //! The contact loop: the same text for every law and instruction set.
 
 mod batch;
+mod normal;
 mod pairs;
 mod walls;
 
 use std::ops::Range;
 
-use pulvis_math::{InstructionSet, Packed4, Vector3};
+use pulvis_contact::Viscosity;
+use pulvis_math::{InstructionSet, Packed4, Simd8, Vector3};
 
-use self::pairs::PairSweep;
-use self::walls::WallSweep;
+use self::batch::{BlockSums, Response};
+use self::normal::Wants;
 use super::block::{ContactGroup, Partner};
 use super::chunk::Approach;
 use crate::particles::ForceTorque;
@@ -68,6 +70,8 @@ pub(crate) struct Advance {
     pub(crate) stored: bool,
     /// What the processor can do.
     pub(crate) instructions: InstructionSet,
+    /// Whether all laws are called through pointers, those of common contacts too.
+    pub(crate) pointers: bool,
 }
 
 /// Computes a group's contacts, particle pairs or contacts with a wall, and adds their forces and torques to `sums`.
@@ -84,17 +88,49 @@ pub(crate) unsafe fn sweep(
     approach: Approach,
     prefetch: Prefetch<'_>,
 ) {
-    let normal = group.model.normal;
     let partner = group.partner;
     let approach = match partner {
         Partner::Particle => approach.pairs,
         Partner::Wall => approach.walls,
     };
     let contacts = Loop { group, sums, moving, advance, approach, prefetch };
+    // SAFETY: the caller's.
     match partner {
-        Partner::Particle => normal.accept(PairSweep(contacts)),
-        Partner::Wall => normal.accept(WallSweep(contacts, walls)),
+        Partner::Particle => unsafe { pairs::sweep(contacts) },
+        Partner::Wall => unsafe { walls::sweep(contacts, walls) },
     }
+}
+
+/// What the blocks of a group are computed with.
+#[inline(always)]
+fn response<C>(call: C, group: &ContactGroup, advance: &Advance, ledger: bool) -> Response<C> {
+    let (laws, slots) = (group.model.laws, *group.layout.slots());
+    let with_memory = laws.remembers_normal_motion(&slots);
+    let Advance { time_step, stored, .. } = *advance;
+    Response { call, laws, slots, time_step, with_memory, ledger, stored }
+}
+
+/// Which answers of a normal law the loop over a group looks at.
+fn wants(group: &ContactGroup, advance: &Advance) -> Wants {
+    let (laws, normal) = (&group.model.laws, &group.model.normal);
+    let rate = !normal.stiffness_is_bounded();
+    Wants {
+        energy: advance.ledger && advance.stored,
+        losses: advance.ledger && laws.remembers_normal_motion(group.layout.slots()),
+        hardening: !matches!(laws.viscosity, Viscosity::None(_)),
+        stiffness: rate || laws.viscosity.needs_stiffness(),
+        radius: laws.needs_contact_radius(),
+        rate,
+    }
+}
+
+/// Takes in what the blocks of a group add up to.
+#[inline(always)]
+fn finish<R: Simd8>(group: &mut ContactGroup, totals: &BlockSums<R>) {
+    group.energies = totals.energies.to_array();
+    let rates = totals.rate_squared.to_array();
+    // A NaN among the stiffnesses shows in the energies and forces.
+    group.rate_squared = rates.0.iter().copied().fold(0.0, f64::max);
 }
 
 /// What a loop works on.

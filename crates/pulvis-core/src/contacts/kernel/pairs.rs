@@ -1,123 +1,214 @@
 //! Contacts between particles.
 
-use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, resistance};
+use pulvis_contact::normal::{CommonLawVisitor, Inlined};
+use pulvis_contact::{NormalLaw, Pair, levels};
 use pulvis_math::{Kernel, Mask, Simd8};
 
-use super::super::block::occupied_lanes;
-use super::batch::{BATCH, Batch, Response, gather, gather_apart};
-use super::{Advance, Loop};
+use super::super::block::{ContactGroup, occupied_lanes};
+use super::batch::{BATCH, Batch, BlockSums, GatheredBlock, Response, gather, gather_apart};
+use super::normal::{NormalCall, Pointed};
+use super::{Advance, KinematicColumns, Loop, finish, response, wants};
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
 
-/// The loop over a group, with the type of its law.
-pub(super) struct PairSweep<'a>(pub(super) Loop<'a>);
-
-impl NormalLawVisitor for PairSweep<'_> {
-    type Output = ();
-    fn visit<N: NormalLaw>(self, law: N) {
-        let Self(contacts) = self;
-        let (level, advance) = (contacts.group.model.laws.resistance_level(), contacts.advance);
-        let set = advance.instructions;
-        match (level, advance.ledger) {
-            (resistance::NONE, true) => set.run(PairLoop::<N, { resistance::NONE }, true> { law, contacts }),
-            (resistance::NONE, false) => {
-                set.run(PairLoop::<N, { resistance::NONE }, false> { law, contacts });
-            }
-            (resistance::SLIDING, true) => {
-                set.run(PairLoop::<N, { resistance::SLIDING }, true> { law, contacts });
-            }
-            (resistance::SLIDING, false) => {
-                set.run(PairLoop::<N, { resistance::SLIDING }, false> { law, contacts });
-            }
-            (_, true) => set.run(PairLoop::<N, { resistance::ALL }, true> { law, contacts }),
-            (_, false) => set.run(PairLoop::<N, { resistance::ALL }, false> { law, contacts }),
+/// Runs the loop over a group: one that is compiled for its normal law if it is a common contact, otherwise the one
+/// that calls laws through pointers.
+///
+/// # Safety
+/// As of [`sweep`](super::sweep).
+pub(super) unsafe fn sweep(contacts: Loop<'_>) {
+    let common = contacts.group.model.is_common() && !contacts.advance.pointers;
+    let normal = contacts.group.model.normal;
+    if let Err(CommonPairs(contacts)) = accept_if(common, &normal, CommonPairs(contacts)) {
+        let level = contacts.group.model.laws.resistance_level();
+        let set = contacts.advance.instructions;
+        match level {
+            levels::NONE => set.run(PointedPairs::<{ levels::NONE }>(contacts)),
+            levels::SLIDING => set.run(PointedPairs::<{ levels::SLIDING }>(contacts)),
+            _ => set.run(PointedPairs::<{ levels::ALL }>(contacts)),
         }
     }
 }
 
-struct PairLoop<'a, N, const RESISTANCE: u8, const LEDGER: bool> {
+fn accept_if<'a>(
+    common: bool,
+    normal: &pulvis_contact::Normal,
+    visitor: CommonPairs<'a>,
+) -> Result<(), CommonPairs<'a>> {
+    if common { normal.accept_common(visitor) } else { Err(visitor) }
+}
+
+/// The loop over common contacts, with the type of their law.
+struct CommonPairs<'a>(Loop<'a>);
+
+impl CommonLawVisitor for CommonPairs<'_> {
+    type Output = ();
+    fn visit<N: NormalLaw>(self, law: N) {
+        let Self(contacts) = self;
+        let (level, ledger) = (contacts.group.model.laws.resistance_level(), contacts.advance.ledger);
+        let set = contacts.advance.instructions;
+        match (level, ledger) {
+            (levels::NONE, true) => set.run(InlinedPairs::<N, { levels::NONE }, true> { law, contacts }),
+            (levels::NONE, false) => set.run(InlinedPairs::<N, { levels::NONE }, false> { law, contacts }),
+            (levels::SLIDING, true) => {
+                set.run(InlinedPairs::<N, { levels::SLIDING }, true> { law, contacts });
+            }
+            (levels::SLIDING, false) => {
+                set.run(InlinedPairs::<N, { levels::SLIDING }, false> { law, contacts });
+            }
+            (_, true) => set.run(InlinedPairs::<N, { levels::ALL }, true> { law, contacts }),
+            (_, false) => set.run(InlinedPairs::<N, { levels::ALL }, false> { law, contacts }),
+        }
+    }
+}
+
+struct InlinedPairs<'a, N, const RESISTANCE: u8, const LEDGER: bool> {
     law: N,
     contacts: Loop<'a>,
 }
 
-impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel for PairLoop<'_, N, RESISTANCE, LEDGER> {
+impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel
+    for InlinedPairs<'_, N, RESISTANCE, LEDGER>
+{
     type Output = ();
 
     #[inline(always)]
     fn run<R: Simd8>(self) {
-        let Self { law, contacts: Loop { group, sums, moving, advance, approach, mut prefetch } } = self;
-        let sums = Shared::new(sums);
-        // By value: not to be read anew after every store.
-        let (laws, advance) = (group.model.laws, *advance);
-        let turning_dashpots = laws.has_resistance_dashpot();
-        let interaction_range = R::splat(-laws.noncontact.interaction_range());
-        let Advance { time_step, stored, .. } = advance;
-        let (layout, with_memory) = (group.layout, laws.remembers_normal_motion::<N>());
-        let response = Response { law, laws, layout, time_step, with_memory, stored };
-        let mut energies = ContactEnergies::<R>::default();
-        let mut batch = Batch::<R>::new();
-        let blocks = group.rows.len();
-        let mut next = 0;
-        let expected = if group.batches > 0 { group.batches } else { blocks.div_ceil(BATCH) };
-        let counts = prefetch.in_rounds(expected);
-        group.batches = 0;
-        while next < blocks {
-            prefetch.make_ready(moving, counts);
-            group.batches += 1;
-            while next < blocks && !batch.is_full() {
-                let block = next;
-                next += 1;
-                // SAFETY (here and below): every block has its gap, its flag and so on, and rows lie
-                // within the columns, as the caller of `sweep` vouches.
-                let active = unsafe { group.active.get_unchecked_mut(block) };
-                if unsafe { *group.gap.get_unchecked(block) } > approach && !*active {
-                    continue;
-                }
-                let rows = unsafe { &group.rows.get_unchecked(block).0 };
-                let [first, second] = rows;
-                let (centre_i, radius_i) = unsafe { gather::<R>(moving.position, first) };
-                let (centre_j, radius_j) = unsafe { gather::<R>(moving.position, second) };
-                let mut separation = centre_i - centre_j;
-                if unsafe { *group.crosses_boundary.get_unchecked(block) } {
-                    separation = advance.images.nearest(separation);
-                }
-                let distance = separation.norm();
-                let overlap = radius_i + radius_j - distance;
-                // Idle lanes are out of any reach.
-                let occupancy = occupied_lanes::<R>(unsafe { *group.occupancy.get_unchecked(block) });
-                let overlap = R::select(occupancy, overlap, interaction_range + interaction_range - radius_i);
-                let acts = overlap.gt(interaction_range).any();
-                if !acts && !*active {
-                    continue;
-                }
-                *active = acts;
-                let inverse_distance = R::one() / distance;
-                let (velocity_mid, inverse_mass) = unsafe { gather_apart::<R>(moving.velocity_mid, rows) };
-                let (velocity, inverse_radius_sum) = unsafe { gather_apart::<R>(moving.velocity, rows) };
-                let inputs = batch.add();
-                inputs.block = block;
-                inputs.pair = Pair::from_sums(inverse_mass, inverse_radius_sum);
-                let motion = &mut inputs.motion;
-                motion.normal = separation * inverse_distance;
-                (motion.overlap, motion.inverse_distance) = (overlap, inverse_distance);
-                (motion.radius_i, motion.radius_j) = (radius_i, radius_j);
-                (motion.velocity, motion.velocity_mid) = (velocity, velocity_mid);
-                if RESISTANCE != resistance::NONE {
-                    motion.angular_velocity_i_mid =
-                        unsafe { gather::<R>(moving.angular_velocity_mid, first) }.0;
-                    motion.angular_velocity_j_mid =
-                        unsafe { gather::<R>(moving.angular_velocity_mid, second) }.0;
-                    if turning_dashpots {
-                        motion.angular_velocity_i = unsafe { gather::<R>(moving.angular_velocity, first) }.0;
-                        motion.angular_velocity_j = unsafe { gather::<R>(moving.angular_velocity, second) }.0;
-                    }
-                }
-            }
-            // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.
-            unsafe { batch.respond::<N, RESISTANCE, LEDGER>(&response, &mut group.memory, &mut energies) };
-            unsafe { batch.add_up::<RESISTANCE, true>(&group.sums, sums) };
+        let response = response(Inlined(self.law), self.contacts.group, self.contacts.advance, true);
+        // SAFETY: as the caller of `sweep` vouches.
+        unsafe { sweep_pairs::<R, _, RESISTANCE, LEDGER>(response, self.contacts) };
+    }
+}
+
+/// The loop over contacts whose normal law is called through a pointer.
+struct PointedPairs<'a, const RESISTANCE: u8>(Loop<'a>);
+
+impl<const RESISTANCE: u8> Kernel for PointedPairs<'_, RESISTANCE> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Simd8>(self) {
+        let Self(contacts) = self;
+        let (group, advance) = (&*contacts.group, contacts.advance);
+        let normal = group.model.normal;
+        let columns = group.layout.columns();
+        let call = Pointed::<R>::new(&normal, columns, advance.time_step, wants(group, advance));
+        let response = response(call, group, advance, advance.ledger);
+        // SAFETY: as the caller of `sweep` vouches.
+        unsafe { sweep_pairs::<R, _, RESISTANCE, true>(response, contacts) };
+    }
+}
+
+/// The loop: blocks of eight are gathered, computed and added up, a batch at a time.
+///
+/// # Safety
+/// As of [`sweep`](super::sweep).
+#[inline(always)]
+unsafe fn sweep_pairs<R: Simd8, C: NormalCall<R>, const RESISTANCE: u8, const LEDGER: bool>(
+    mut response: Response<C>,
+    contacts: Loop<'_>,
+) {
+    let Loop { group, sums, moving, advance, approach, mut prefetch } = contacts;
+    let sums = Shared::new(sums);
+    // By value: not to be read anew after every store.
+    let gathering = Gathering {
+        moving,
+        advance: *advance,
+        approach,
+        range: group.interaction_range,
+        turning_dashpots: group.model.laws.has_resistance_dashpot(),
+    };
+    let mut totals = BlockSums::<R>::new();
+    let mut batch = Batch::<R>::new();
+    let blocks = group.rows.len();
+    let mut next = 0;
+    let expected = if group.batches > 0 { group.batches } else { blocks.div_ceil(BATCH) };
+    let counts = prefetch.in_rounds(expected);
+    group.batches = 0;
+    while next < blocks {
+        prefetch.make_ready(moving, counts);
+        group.batches += 1;
+        while next < blocks && !batch.is_full() {
+            // SAFETY: `next` is a block of the group; the rest as the caller vouches.
+            unsafe { gathering.gather::<R, RESISTANCE>(group, next, &mut batch) };
+            next += 1;
         }
-        prefetch.sums.fill(ForceTorque::default());
-        group.energies = energies.to_array();
+        // SAFETY: every block has its memory and its slots of sums; the rest as the caller vouches.
+        unsafe {
+            batch.respond::<C, RESISTANCE, LEDGER>(&mut response, &mut group.memory, &mut totals);
+            batch.add_up::<RESISTANCE, true>(&group.sums, sums);
+        }
+    }
+    prefetch.sums.fill(ForceTorque::default());
+    finish(group, &totals);
+}
+
+/// What blocks are gathered with.
+#[derive(Clone, Copy)]
+struct Gathering<'a> {
+    moving: KinematicColumns<'a>,
+    advance: Advance,
+    approach: f64,
+    /// How far beyond touching the contacts act [m].
+    range: f64,
+    turning_dashpots: bool,
+}
+
+impl Gathering<'_> {
+    /// Gathers a block into the batch, unless none of its contacts acts or has acted in the last step.
+    ///
+    /// # Safety
+    /// `block` is one of the group's, whose rows lie within the columns; nobody writes those meanwhile.
+    #[inline(always)]
+    unsafe fn gather<R: Simd8, const RESISTANCE: u8>(
+        self,
+        group: &mut ContactGroup,
+        block: usize,
+        batch: &mut Batch<R>,
+    ) {
+        let Self { moving, advance, approach, range, turning_dashpots } = self;
+        // SAFETY (here and below): every block has its gap, its flags and its rows.
+        let active = unsafe { group.active.get_unchecked_mut(block) };
+        if unsafe { *group.gap.get_unchecked(block) } > approach && !*active {
+            return;
+        }
+        let rows = unsafe { &group.rows.get_unchecked(block).0 };
+        let [first, second] = rows;
+        // SAFETY (here and below): the rows lie within the columns.
+        let (centre_i, radius_i) = unsafe { gather::<R>(moving.position, first) };
+        let (centre_j, radius_j) = unsafe { gather::<R>(moving.position, second) };
+        let mut separation = centre_i - centre_j;
+        if unsafe { *group.crosses_boundary.get_unchecked(block) } {
+            separation = advance.images.nearest(separation);
+        }
+        let distance = separation.norm();
+        let overlap = radius_i + radius_j - distance;
+        // Idle lanes are out of any range.
+        let occupied = occupied_lanes::<R>(unsafe { *group.occupancy.get_unchecked(block) });
+        let end = R::splat(-range);
+        let overlap = R::select(occupied, overlap, end + end - radius_i);
+        let acts = overlap.gt(end).any();
+        if !acts && !*active {
+            return;
+        }
+        *active = acts;
+        let inverse_distance = R::one() / distance;
+        let (velocity_mid, inverse_mass) = unsafe { gather_apart::<R>(moving.velocity_mid, rows) };
+        let (velocity, inverse_radius_sum) = unsafe { gather_apart::<R>(moving.velocity, rows) };
+        let GatheredBlock { block: number, pair, motion } = batch.add();
+        *number = block;
+        *pair = Pair::from_sums(inverse_mass, inverse_radius_sum);
+        motion.normal = separation * inverse_distance;
+        (motion.overlap, motion.inverse_distance) = (overlap, inverse_distance);
+        (motion.radius_i, motion.radius_j) = (radius_i, radius_j);
+        (motion.velocity, motion.velocity_mid) = (velocity, velocity_mid);
+        if RESISTANCE != levels::NONE {
+            motion.angular_velocity_i_mid = unsafe { gather::<R>(moving.angular_velocity_mid, first) }.0;
+            motion.angular_velocity_j_mid = unsafe { gather::<R>(moving.angular_velocity_mid, second) }.0;
+            if turning_dashpots {
+                motion.angular_velocity_i = unsafe { gather::<R>(moving.angular_velocity, first) }.0;
+                motion.angular_velocity_j = unsafe { gather::<R>(moving.angular_velocity, second) }.0;
+            }
+        }
     }
 }

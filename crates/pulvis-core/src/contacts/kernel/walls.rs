@@ -1,50 +1,43 @@
 //! Contacts with walls.
 
-use pulvis_contact::{ContactEnergies, NormalLaw, NormalLawVisitor, Pair, resistance};
+use pulvis_contact::{Pair, levels};
 use pulvis_math::{Kernel, Mask, Simd8, Vector3};
 
 use super::super::block::{PACKED4_NUMBERS, occupied_lanes};
-use super::batch::{Batch, Response, gather};
-use super::{Advance, Loop, WallMotionNow};
+use super::batch::{Batch, BlockSums, gather};
+use super::normal::Pointed;
+use super::{Loop, WallMotionNow, finish, response, wants};
 use crate::shared::Shared;
 
-/// The loop over a group, with the type of its law.
-pub(super) struct WallSweep<'a>(pub(super) Loop<'a>, pub(super) &'a [WallMotionNow]);
-
-impl NormalLawVisitor for WallSweep<'_> {
-    type Output = ();
-    fn visit<N: NormalLaw>(self, law: N) {
-        let Self(contacts, walls) = self;
-        let (level, set) = (contacts.group.model.laws.resistance_level(), contacts.advance.instructions);
-        match level {
-            resistance::NONE => set.run(WallLoop::<N, { resistance::NONE }> { law, contacts, walls }),
-            resistance::SLIDING => set.run(WallLoop::<N, { resistance::SLIDING }> { law, contacts, walls }),
-            _ => set.run(WallLoop::<N, { resistance::ALL }> { law, contacts, walls }),
-        }
-    }
+/// Runs the loop over a group of contacts with walls.
+///
+/// # Safety
+/// As of [`sweep`](super::sweep).
+pub(super) unsafe fn sweep(contacts: Loop<'_>, walls: &[WallMotionNow]) {
+    let set = contacts.advance.instructions;
+    set.run(WallLoop { contacts, walls });
 }
 
-/// Walls have few contacts: their energies are always accounted for.
-struct WallLoop<'a, N, const RESISTANCE: u8> {
-    law: N,
+/// Contacts with walls are few: one loop does for all laws, called through pointers, and for all levels of resistance.
+struct WallLoop<'a> {
     contacts: Loop<'a>,
     walls: &'a [WallMotionNow],
 }
 
-impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> {
+impl Kernel for WallLoop<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Simd8>(self) {
-        let Self { law, contacts: Loop { group, sums, moving, advance, approach, .. }, walls } = self;
+        let Self { contacts: Loop { group, sums, moving, advance, approach, .. }, walls } = self;
         let sums = Shared::new(sums);
-        let (laws, advance) = (group.model.laws, *advance);
-        let turning_dashpots = laws.has_resistance_dashpot();
-        let interaction_range = R::splat(-laws.noncontact.interaction_range());
-        let Advance { time_step, stored, .. } = advance;
-        let (layout, with_memory) = (group.layout, laws.remembers_normal_motion::<N>());
-        let response = Response { law, laws, layout, time_step, with_memory, stored };
-        let mut energies = ContactEnergies::<R>::default();
+        let (laws, normal) = (group.model.laws, group.model.normal);
+        let (turns, turning_dashpots) = (laws.has_friction(), laws.has_resistance_dashpot());
+        let interaction_range = R::splat(-group.interaction_range);
+        let columns = group.layout.columns();
+        let call = Pointed::<R>::new(&normal, columns, advance.time_step, wants(group, advance));
+        let mut response = response(call, group, advance, advance.ledger);
+        let mut totals = BlockSums::<R>::new();
         group.wall_forces.fill(Vector3::zero());
         // The forces of one wall at a time.
         let (mut at_wall, mut total) = (0, Vector3::<R>::zero());
@@ -81,7 +74,7 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
                 (motion.normal, motion.overlap, motion.radius_i) = (normal, overlap, radius);
                 motion.velocity = velocity - Vector3::splat(wall.velocity);
                 motion.velocity_mid = mid - Vector3::splat(wall.velocity_mid);
-                if RESISTANCE != resistance::NONE {
+                if turns {
                     motion.angular_velocity_i_mid =
                         unsafe { gather::<R>(moving.angular_velocity_mid, rows) }.0;
                     if turning_dashpots {
@@ -90,7 +83,9 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
                 }
             }
             // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.
-            unsafe { batch.respond::<N, RESISTANCE, true>(&response, &mut group.memory, &mut energies) };
+            unsafe {
+                batch.respond::<_, { levels::ALL }, true>(&mut response, &mut group.memory, &mut totals);
+            }
             for index in 0..batch.len() {
                 let (block, force) = batch.force(index);
                 let wall = group.second_row(block, 0) as usize;
@@ -101,10 +96,10 @@ impl<N: NormalLaw, const RESISTANCE: u8> Kernel for WallLoop<'_, N, RESISTANCE> 
                 total += force;
             }
             // SAFETY: as the caller of `sweep` vouches.
-            unsafe { batch.add_up::<RESISTANCE, false>(&group.sums, sums) };
+            unsafe { batch.add_up::<{ levels::ALL }, false>(&group.sums, sums) };
         }
         group.wall_forces[at_wall] += sum_of(total);
-        group.energies = energies.to_array();
+        finish(group, &totals);
     }
 }
 

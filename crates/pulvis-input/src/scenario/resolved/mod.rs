@@ -7,6 +7,7 @@ pub(super) mod writer;
 use super::output::{Interval, OutputPlan, Snapshots};
 use super::time::TimeStep;
 use super::{Axis, Contact, Material, NamedLaw, Scenario, Stage};
+use pulvis_contact::catalogue::mixing::MATERIAL_PROPERTIES;
 use pulvis_contact::catalogue::{Kind, Value};
 use pulvis_math::{Dimension, Vector3};
 use writer::{Writer, key, list, number, quantity, text, vector};
@@ -55,6 +56,11 @@ impl Scenario {
             writer.table(&format!("materials.{}", key(&material.name)));
             if let Some(density) = material.density {
                 writer.key("density", quantity(density, Dimension::DENSITY));
+            }
+            for property in MATERIAL_PROPERTIES {
+                if let Some(value) = material.properties.number(property.name) {
+                    writer.key(property.name, quantity(value, property.dimension));
+                }
             }
         }
     }

@@ -3,7 +3,6 @@
 use super::Flight;
 use crate::collision::dynamics::Phase;
 use crate::collision::outcome::{Collision, Outcome, Regime, Sample, Sampling};
-use pulvis_contact::NormalLaw;
 
 /// A pair whose kinetic energy and elastic energy about the force-free point are this part of what it
 /// had is at rest.
@@ -13,7 +12,7 @@ const AT_REST: f64 = 1e-26;
 /// less has used up its energy, which counts as sticking.
 const RESOLUTION: f64 = 1e-13;
 
-impl<N: NormalLaw> Flight<'_, N> {
+impl Flight<'_> {
     pub(super) fn at_rest(&self) -> bool {
         let force = self.response.normal_force;
         let least = AT_REST * self.scale[2];

@@ -4,7 +4,6 @@ use super::Flight;
 use crate::collision::dynamics::{Branches, Phase};
 use crate::collision::extrapolation::Trial;
 use crate::collision::outcome::Sampling;
-use pulvis_contact::NormalLaw;
 
 /// What ended a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,7 +18,7 @@ pub(super) enum Event {
     Border,
 }
 
-impl<N: NormalLaw> Flight<'_, N> {
+impl Flight<'_> {
     /// What happened within a step that was tried.
     pub(super) fn event(&self, trial: &Trial<3>, direction: f64, branches: &[Branches; 2]) -> Event {
         let [overlap, velocity, _] = trial.end;

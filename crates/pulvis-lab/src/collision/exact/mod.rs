@@ -8,13 +8,13 @@
 mod account;
 mod events;
 
-use super::dynamics::{Branches, Dynamics, Motion, Phase};
+use super::dynamics::{Branches, Dynamics, Motion, Phase, Record};
 use super::error::CollisionError;
 use super::extrapolation::{Trial, try_step};
 use super::outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
 use super::problem::Problem;
 use events::Event;
-use pulvis_contact::{ContactMemory, ContactResponse, NormalLaw};
+use pulvis_contact::ContactResponse;
 
 /// More steps than any collision should take: overdamped pairs creep, but not that long.
 const MOST_STEPS: u64 = 2_000_000;
@@ -27,12 +27,8 @@ const LONGEST_STEP: f64 = 1.0 / 8.0;
 ///
 /// # Errors
 /// The motion does not end, or leaves the range of numbers.
-pub(super) fn collide<N: NormalLaw>(
-    law: N,
-    problem: &Problem<'_>,
-    observation: &Observation,
-) -> Result<Collision, CollisionError> {
-    let dynamics = Dynamics { law, laws: &problem.contact.laws, pair: problem.pair };
+pub(super) fn collide(problem: &Problem<'_>, observation: &Observation) -> Result<Collision, CollisionError> {
+    let dynamics = Dynamics::new(problem.contact, problem.pair);
     let mut flight = Flight::new(dynamics, problem, observation);
     while !flight.over {
         flight.step()?;
@@ -41,14 +37,14 @@ pub(super) fn collide<N: NormalLaw>(
 }
 
 /// A collision under way.
-struct Flight<'p, N: NormalLaw> {
-    dynamics: Dynamics<'p, N>,
+struct Flight<'p> {
+    dynamics: Dynamics,
     problem: &'p Problem<'p>,
     observation: &'p Observation,
     time: f64,
     motion: Motion,
     phase: Phase,
-    memory: ContactMemory<f64, N::Memory<f64>>,
+    memory: Record,
     response: ContactResponse<f64>,
     /// Lost to the rate-independent laws [J].
     lost: f64,
@@ -72,8 +68,8 @@ struct Flight<'p, N: NormalLaw> {
     over: bool,
 }
 
-impl<'p, N: NormalLaw> Flight<'p, N> {
-    fn new(dynamics: Dynamics<'p, N>, problem: &'p Problem<'p>, observation: &'p Observation) -> Self {
+impl<'p> Flight<'p> {
+    fn new(dynamics: Dynamics, problem: &'p Problem<'p>, observation: &'p Observation) -> Self {
         let longest_step = LONGEST_STEP * problem.shortest_time;
         let start = problem.start_overlap();
         let longest_step = match observation.sampling {
@@ -84,7 +80,7 @@ impl<'p, N: NormalLaw> Flight<'p, N> {
         let mut flight = Self {
             motion: [start, speed, 0.0],
             phase: Phase::Apart,
-            memory: ContactMemory::default(),
+            memory: dynamics.fresh(),
             response: ContactResponse::default(),
             lost: 0.0,
             time: 0.0,

@@ -1,0 +1,95 @@
+//! How two bodies in contact lie and move.
+
+use pulvis_math::{Real, Vector3};
+
+use crate::pair::Pair;
+
+/// How two bodies i and j lie and move. Velocities come twice: at the time of the positions, which
+/// dashpots see, and at the middle of the step that led there, which springs follow.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactKinematics<R> {
+    /// Unit vector from j to i; of a wall, the normal that points to the body.
+    pub normal: Vector3<R>,
+    /// Overlap δ, negative at a distance [m].
+    pub overlap: R,
+    /// 1/distance of the centres, zero for a plane wall: how fast the normal turns [1/m].
+    pub inverse_distance: R,
+    /// Radius of i [m].
+    pub radius_i: R,
+    /// Radius of j, zero for a wall [m].
+    pub radius_j: R,
+    /// Velocity of i minus velocity of j [m/s].
+    pub velocity: Vector3<R>,
+    /// The same at mid-step [m/s].
+    pub velocity_mid: Vector3<R>,
+    /// Angular velocity of i [rad/s].
+    pub angular_velocity_i: Vector3<R>,
+    /// Angular velocity of j, zero for a wall [rad/s].
+    pub angular_velocity_j: Vector3<R>,
+    /// Angular velocity of i at mid-step [rad/s].
+    pub angular_velocity_i_mid: Vector3<R>,
+    /// Angular velocity of j at mid-step [rad/s].
+    pub angular_velocity_j_mid: Vector3<R>,
+}
+
+/// What a contact is computed from.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactInputs<'a, R> {
+    /// Constants of the two bodies.
+    pub pair: &'a Pair<R>,
+    /// How they lie and move.
+    pub motion: &'a ContactKinematics<R>,
+    /// The step that led there [s].
+    pub time_step: f64,
+}
+
+/// What a normal law sees of a contact: the motion along the line of centres.
+#[derive(Clone, Copy, Debug)]
+pub struct NormalMotion<R: Real> {
+    /// Constants of the two bodies.
+    pub pair: Pair<R>,
+    /// Overlap δ, negative at a distance [m].
+    pub overlap: R,
+    /// Whether the bodies overlap, δ > 0.
+    pub touching: R::Mask,
+    /// Overlap of bodies that touch, zero for others [m].
+    pub depth: R,
+    /// Closing rate dδ/dt at the time of the positions [m/s].
+    pub closing_rate: R,
+    /// How much δ has grown in the step that led here, from the velocity that moved the bodies [m].
+    pub growth: R,
+    /// Length of that step [s]; zero where the contact is looked at without a step.
+    pub time_step: f64,
+}
+
+impl<R: Real> NormalMotion<R> {
+    /// The normal part of a motion after a step of `time_step` [s].
+    #[inline(always)]
+    pub fn new(pair: &Pair<R>, kinematics: &ContactKinematics<R>, time_step: f64) -> Self {
+        let touching = kinematics.overlap.gt(R::zero());
+        Self {
+            pair: *pair,
+            overlap: kinematics.overlap,
+            touching,
+            depth: kinematics.overlap.keep_where(touching),
+            closing_rate: -kinematics.velocity.dot(kinematics.normal),
+            growth: kinematics.velocity_mid.dot(kinematics.normal) * R::splat(-time_step),
+            time_step,
+        }
+    }
+
+    /// A contact at rest at an overlap [m].
+    #[inline(always)]
+    pub fn at_rest(pair: &Pair<R>, overlap: R) -> Self {
+        let touching = overlap.gt(R::zero());
+        let zero = R::zero();
+        let (pair, depth) = (*pair, overlap.keep_where(touching));
+        Self { pair, overlap, touching, depth, closing_rate: zero, growth: zero, time_step: 0.0 }
+    }
+
+    /// Whether the bodies overlapped before the step already.
+    #[inline(always)]
+    pub fn touched_before(&self) -> R::Mask {
+        !self.overlap.lt(self.growth) & self.touching
+    }
+}

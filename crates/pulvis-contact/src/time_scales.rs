@@ -1,0 +1,73 @@
+//! How fast a contact can move: what time steps have to resolve.
+
+use std::f64::consts::PI;
+
+use crate::friction::Friction;
+use crate::model::ContactModel;
+use crate::pair::Pair;
+
+impl ContactModel {
+    /// Shortest duration [s] of any motion that the contact can make: π over its highest frequency,
+    /// over all branches and springs, for bodies with masses [kg] and radii [m] (`None`: a wall). Laws whose
+    /// stiffness has no bound take it from the loading that is expected.
+    ///
+    /// Squares of the frequencies: k/m_r along the normal; k_o L² (1/I_i + 1/I_j) of torsion; and the
+    /// larger one of the two modes into which sliding, k_t (1/m_r + a_i²/I_i + a_j²/I_j), and rolling,
+    /// k_r L² (1/I_i + 1/I_j), combine where a_i/I_i differs from a_j/I_j. Dashpots count with their
+    /// rates γ/m_r and so on. Solid spheres, I = 2/5 m a².
+    pub fn shortest_contact_time(&self, body_i: (f64, f64), body_j: Option<(f64, f64)>) -> f64 {
+        let (mass_i, radius_i) = body_i;
+        let pair = match body_j {
+            Some((mass_j, radius_j)) => Pair::spheres(mass_i, mass_j, radius_i, radius_j),
+            None => Pair::wall(mass_i, radius_i),
+        };
+        let modes = Modes::new(&pair, body_i, body_j);
+        let laws = &self.laws;
+        let normal = self.normal.max_stiffness(&pair, &laws.expected);
+        let radius = self.normal.expected_contact_radius(&pair, &laws.expected);
+        let stiffness = |law: &Option<Friction>| law.as_ref().map_or(0.0, |law| law.max_stiffness(radius));
+        let dashpot = |law: &Option<Friction>| law.as_ref().map_or(0.0, Friction::dashpot);
+        let squares = (normal.max(laws.noncontact.max_stiffness(&pair)) * pair.inverse_reduced_mass())
+            .max(modes.highest(stiffness(&laws.sliding), stiffness(&laws.rolling)))
+            .max(modes.turning * stiffness(&laws.torsion));
+        let normal_dashpot = self.normal.dashpot(&pair) + laws.viscosity.largest_coefficient(&pair, normal);
+        let rates = (normal_dashpot * pair.inverse_reduced_mass())
+            .max(modes.highest(dashpot(&laws.sliding), dashpot(&laws.rolling)))
+            .max(modes.turning * dashpot(&laws.torsion));
+        PI / squares.sqrt().max(rates)
+    }
+}
+
+/// Inverse inertias [1/kg] against which the springs of a contact work.
+struct Modes {
+    /// 1/m_r + a_i²/I_i + a_j²/I_j, of sliding.
+    sliding: f64,
+    /// L² (1/I_i + 1/I_j), of rolling and torsion.
+    turning: f64,
+    /// L (a_i/I_i − a_j/I_j): a sliding force rolls the contact unless the bodies are alike.
+    coupling: f64,
+}
+
+impl Modes {
+    fn new(pair: &Pair, body_i: (f64, f64), body_j: Option<(f64, f64)>) -> Self {
+        // A wall has a_j = 0 and 1/I_j = 0.
+        let inverse_inertia = |(mass, radius): (f64, f64)| 1.0 / (0.4 * mass * radius * radius);
+        let (radius_i, turn_i) = (body_i.1, inverse_inertia(body_i));
+        let (radius_j, turn_j) = body_j.map_or((0.0, 0.0), |body| (body.1, inverse_inertia(body)));
+        let lever = pair.harmonic_radius();
+        Self {
+            sliding: pair.inverse_reduced_mass()
+                + radius_i * radius_i * turn_i
+                + radius_j * radius_j * turn_j,
+            turning: lever * lever * (turn_i + turn_j),
+            coupling: lever * (radius_i * turn_i - radius_j * turn_j),
+        }
+    }
+
+    /// The larger eigenvalue of the coupled motion for the coefficients of sliding and rolling.
+    fn highest(&self, sliding: f64, rolling: f64) -> f64 {
+        let (first, second) = (sliding * self.sliding, rolling * self.turning);
+        let coupling = sliding * rolling * self.coupling * self.coupling;
+        0.5 * (first + second + ((first - second) * (first - second) + 4.0 * coupling).sqrt())
+    }
+}

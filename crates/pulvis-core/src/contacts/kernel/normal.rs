@@ -1,0 +1,179 @@
+//! Where the loops get the answers of normal laws from: inlined, or through a pointer once a batch.
+
+use std::marker::PhantomData;
+
+use pulvis_contact::normal::{Computed, Inlined, NormalSource, answer};
+use pulvis_contact::{Normal, NormalLaw, NormalLawVisitor, NormalMotion, NormalResponse};
+use pulvis_math::{F64Array, Pointer, Routine, Simd8, Task};
+
+use super::batch::{BATCH, BlockColumns, GatheredBlock};
+
+/// Eight contacts at a time.
+type F64x8 = F64Array<8>;
+
+/// How a loop asks the normal law.
+pub(super) trait NormalCall<R: Simd8> {
+    /// Where the answer to one block comes from.
+    type Source<'a>: NormalSource<R>
+    where
+        Self: 'a;
+
+    /// Makes ready for the blocks of a batch, whose memory stands in `memory`.
+    fn prepare(&mut self, blocks: &[GatheredBlock<R>], memory: &mut [F64x8]);
+
+    /// The answer to the block `index` of the batch.
+    fn source(&self, index: usize) -> Self::Source<'_>;
+
+    /// The stiffness [N/m] of the block `index`, where anybody wants to know.
+    fn stiffness(&self, index: usize) -> Option<R>;
+}
+
+impl<R: Simd8, N: NormalLaw> NormalCall<R> for Inlined<N> {
+    type Source<'a> = Self;
+
+    #[inline(always)]
+    fn prepare(&mut self, _blocks: &[GatheredBlock<R>], _memory: &mut [F64x8]) {}
+
+    #[inline(always)]
+    fn source(&self, _index: usize) -> Self {
+        *self
+    }
+
+    #[inline(always)]
+    fn stiffness(&self, _index: usize) -> Option<R> {
+        None
+    }
+}
+
+/// Which of a law's answers a loop looks at, beside force, friction reference and dashpot. What nobody wants is not
+/// even computed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wants {
+    /// What the contact stores.
+    pub(super) energy: bool,
+    /// What it has lost.
+    pub(super) losses: bool,
+    /// How far it has hardened, and its overlap scale.
+    pub(super) hardening: bool,
+    /// Its elastic stiffness.
+    pub(super) stiffness: bool,
+    /// The radius of its area.
+    pub(super) radius: bool,
+    /// Whether the largest rate of its blocks is to be watched.
+    pub(super) rate: bool,
+}
+
+/// The laws of a batch of blocks, called through a pointer.
+pub(super) struct Pointed<'a, R: Simd8> {
+    law: &'a Normal,
+    pointer: Pointer<NormalTask, R>,
+    answers: [NormalResponse<R>; BATCH],
+    columns: usize,
+    time_step: f64,
+    wants: Wants,
+}
+
+impl<'a, R: Simd8> Pointed<'a, R> {
+    /// Calls of a law whose contacts have so many columns of memory, over steps of `time_step` [s].
+    #[inline(always)]
+    pub(super) fn new(law: &'a Normal, columns: usize, time_step: f64, wants: Wants) -> Self {
+        let pointer = law.accept(PointerOf::<R>(PhantomData));
+        Self { law, pointer, answers: [NormalResponse::none(); BATCH], columns, time_step, wants }
+    }
+}
+
+impl<R: Simd8> NormalCall<R> for Pointed<'_, R> {
+    type Source<'a>
+        = Computed<'a, R>
+    where
+        Self: 'a;
+
+    #[inline(always)]
+    fn prepare(&mut self, blocks: &[GatheredBlock<R>], memory: &mut [F64x8]) {
+        let Self { law, pointer, answers, columns, time_step, wants } = self;
+        let (columns, time_step, wants) = (*columns, *time_step, *wants);
+        pointer.call(&mut NormalBatch { law, blocks, answers, memory, columns, time_step, wants });
+    }
+
+    #[inline(always)]
+    fn source(&self, index: usize) -> Computed<'_, R> {
+        Computed(&self.answers[index])
+    }
+
+    #[inline(always)]
+    fn stiffness(&self, index: usize) -> Option<R> {
+        self.wants.rate.then(|| self.answers[index].stiffness)
+    }
+}
+
+/// What a law's routine works on.
+pub(super) struct NormalBatch<'a, R: Simd8> {
+    law: &'a Normal,
+    blocks: &'a [GatheredBlock<R>],
+    answers: &'a mut [NormalResponse<R>; BATCH],
+    memory: &'a mut [F64x8],
+    columns: usize,
+    time_step: f64,
+    wants: Wants,
+}
+
+/// The answers of a normal law to a batch of blocks.
+pub(super) struct NormalTask;
+
+impl Task for NormalTask {
+    type Data<'a, R: Simd8> = NormalBatch<'a, R>;
+}
+
+/// The routine of one law.
+struct RoutineOf<N>(PhantomData<N>);
+
+impl<N: NormalLaw> Routine<NormalTask> for RoutineOf<N> {
+    #[inline(always)]
+    fn call<R: Simd8>(data: &mut NormalBatch<'_, R>) {
+        let Some(law) = N::of(data.law) else { return };
+        // By value: not to be read anew after every store.
+        let (law, wants, time_step) = (*law, data.wants, data.time_step);
+        for (block, slot) in data.blocks.iter().zip(&mut *data.answers) {
+            let motion = NormalMotion::new(&block.pair, &block.motion, time_step);
+            // SAFETY: every gathered block has its memory.
+            let mut columns = unsafe { BlockColumns::of(data.memory, block.block, data.columns) };
+            let answer = answer(&law, &motion, &mut columns);
+            slot.force = answer.force;
+            slot.applied_force = answer.applied_force;
+            slot.in_contact = answer.in_contact;
+            slot.was_in_contact = answer.was_in_contact;
+            slot.friction_reference = answer.friction_reference;
+            slot.dashpot = answer.dashpot;
+            if wants.energy {
+                slot.stored_energy = answer.stored_energy;
+                slot.adhesive_potential = answer.adhesive_potential;
+            }
+            if wants.losses {
+                slot.dissipated_plastic = answer.dissipated_plastic;
+                slot.dissipated_adhesive = answer.dissipated_adhesive;
+            }
+            if wants.hardening {
+                slot.hardening = answer.hardening;
+                slot.inverse_overlap_scale = answer.inverse_overlap_scale;
+            }
+            if wants.stiffness {
+                slot.stiffness = answer.stiffness;
+            }
+            if wants.radius {
+                slot.contact_radius = answer.contact_radius;
+            }
+        }
+    }
+}
+
+/// The pointer to the routine of a law.
+struct PointerOf<R>(PhantomData<R>);
+
+impl<R: Simd8> NormalLawVisitor for PointerOf<R> {
+    type Output = Pointer<NormalTask, R>;
+
+    #[inline(always)]
+    fn visit<N: NormalLaw>(self, _law: &N) -> Pointer<NormalTask, R> {
+        R::pointer::<NormalTask, RoutineOf<N>>()
+    }
+}
