@@ -3,8 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use pulvis_contact::catalogue::{Law, LawEntry, Role};
-use pulvis_contact::{Conventions, NonContact, Normal, Viscosity, friction};
+use pulvis_contact::catalogue::{InvalidParameter, Law, LawEntry, Role, Values};
+use pulvis_contact::{Conventions, ExpectedLoading, NonContact, Normal, Viscosity, friction};
 use pulvis_testkit as testkit;
 
 fn references(entries: &'static [LawEntry]) -> Vec<&'static LawEntry> {
@@ -21,10 +21,12 @@ fn every_description_is_complete_and_its_law_refuses_wrong_values() {
             friction::build(role, name, values)
         });
     }
-    testkit::catalogue::check_list(&[&Conventions::ENTRY], |name, values| {
-        let entry = Conventions::ENTRY;
-        (name == entry.name).then(|| entry.complete(values).and_then(|all| Conventions::from_values(&all)))
-    });
+    fn built<L: Law>(name: &str, values: &Values) -> Option<Result<L, InvalidParameter>> {
+        let entry = L::ENTRY;
+        (name == entry.name).then(|| entry.complete(values).and_then(|all| L::from_values(&all)))
+    }
+    testkit::catalogue::check_list(&[&Conventions::ENTRY], built::<Conventions>);
+    testkit::catalogue::check_list(&[&ExpectedLoading::ENTRY], built::<ExpectedLoading>);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
-use pulvis_contact::conventions::{FrictionReference, LeverArm, RollingLever};
+use pulvis_contact::conventions::{FrictionReference, LeverArm, RollingLever, SlipDashpot};
 use pulvis_contact::friction::SpringRotation;
 use pulvis_contact::normal::Interpolation;
 use pulvis_contact::{ContactLaws, ContactModel, Conventions, Luding, SpringSlider};
@@ -51,7 +51,15 @@ fn all_conventions() -> Vec<Conventions> {
         for lever_arm in [LeverArm::Corrected, LeverArm::Radius] {
             for rolling_lever in [RollingLever::Harmonic, RollingLever::Reduced] {
                 for spring_rotation in rotations {
-                    all.push(Conventions { friction_reference, lever_arm, rolling_lever, spring_rotation });
+                    for slip_dashpot in [SlipDashpot::Series, SlipDashpot::Printed] {
+                        all.push(Conventions {
+                            friction_reference,
+                            lever_arm,
+                            rolling_lever,
+                            spring_rotation,
+                            slip_dashpot,
+                        });
+                    }
                 }
             }
         }
@@ -63,7 +71,7 @@ fn all_conventions() -> Vec<Conventions> {
 fn sticking(conventions: Conventions) -> ContactModel {
     let spring = |stiffness| {
         let (dynamic_coefficient, static_coefficient) = (10.0, 10.0);
-        Some(SpringSlider { stiffness, dashpot: 0.0, dynamic_coefficient, static_coefficient })
+        Some(SpringSlider { stiffness, dashpot: 0.0, dynamic_coefficient, static_coefficient }.into())
     };
     let normal = Luding { k1: 1e2, kp: 5e2, kc: 1e2, phi_f: 0.05, interpolation: Interpolation::Linear };
     let laws = ContactLaws {

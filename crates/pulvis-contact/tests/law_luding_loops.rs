@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use pulvis_contact::normal::{Interpolation, LudingMemory};
-use pulvis_contact::{Luding, NormalLaw, Pair};
+use pulvis_contact::{Luding, NormalLaw, NormalMotion, NormalResponse, Pair};
 
 /// The columns of `tests/data/luding_reference.csv` that a loop needs.
 struct Row {
@@ -61,6 +61,11 @@ fn reference_limit() -> f64 {
 const LAW: Luding =
     Luding { k1: 100.0, kp: 500.0, kc: 100.0, phi_f: 0.05, interpolation: Interpolation::Linear };
 
+/// The answer at rest at an overlap [m].
+fn respond(law: &Luding, pair: &Pair, overlap: f64, memory: &mut LudingMemory<f64>) -> NormalResponse {
+    law.respond(&NormalMotion::at_rest(pair, overlap), memory)
+}
+
 fn pair() -> Pair {
     Pair::spheres(1.1150559525141375e-5, 1.1150559525141375e-5, 1.1e-3, 1.1e-3)
 }
@@ -105,10 +110,10 @@ fn the_collisions_of_figure_7_pass_through_the_reference_forces() {
             // On k2 the collision has turned, first at the largest overlap, later on the adhesive branch.
             let elastic = note.ends_with("branch=k2");
             if let Some(turn) = (elastic && !unloading).then(|| turning_points.next()).flatten() {
-                law.respond(&pair, turn * limit, &mut memory);
+                respond(&law, &pair, turn * limit, &mut memory);
             }
             unloading = elastic;
-            let answer = law.respond(&pair, overlap * limit, &mut memory);
+            let answer = respond(&law, &pair, overlap * limit, &mut memory);
             let found = answer.force / (law.k1 * limit);
             assert!((found - force).abs() < 1e-12, "{curve}, {note}: {found}, reference {force}");
             points += 1;
@@ -126,7 +131,7 @@ fn the_quasi_static_loops_of_figure_10_pass_through_the_reference_points() {
         let (overlap, branch) =
             row.note.strip_prefix("delta/dp_ref=").unwrap().split_once(" branch=").unwrap();
         let overlap = overlap.parse::<f64>().unwrap() * reference_limit();
-        let answer = row.law.respond(&row.pair, overlap, memory);
+        let answer = respond(&row.law, &row.pair, overlap, memory);
         let found = answer.force / (row.law.k1 * reference_limit());
         assert!(
             (found - row.value).abs() < 1e-12,
@@ -146,7 +151,7 @@ fn equal_stiffnesses_make_an_elastic_contact_with_any_interpolation() {
         let law = Luding { kp: 100.0, interpolation, ..LAW };
         let mut memory = LudingMemory::default();
         for overlap in [1e-6, 5e-5, 1e-3, 2e-5, 0.0, 3e-6] {
-            let answer = law.respond(&pair(), overlap, &mut memory);
+            let answer = respond(&law, &pair(), overlap, &mut memory);
             // One rounding of k1 δ.
             assert!((answer.force - 100.0 * overlap).abs() <= 1e-15, "{interpolation:?}: {answer:?}");
             assert!((answer.stored_energy - 50.0 * overlap * overlap).abs() <= 1e-18);
@@ -160,10 +165,10 @@ fn without_adhesion_the_force_is_zero_below_the_plastic_overlap_and_never_negati
     let law = Luding { kc: 0.0, ..LAW };
     let limit = law.plastic_limit(&pair());
     let mut memory = LudingMemory::default();
-    law.respond(&pair(), limit, &mut memory);
+    respond(&law, &pair(), limit, &mut memory);
     // δ_0 = (1 − k1/kp) δ_p = 0.8 δ_p; above it the slope is kp.
     let at = |x: f64, memory: &mut LudingMemory<f64>| {
-        law.respond(&pair(), x * limit, memory).force / (law.k1 * limit)
+        respond(&law, &pair(), x * limit, memory).force / (law.k1 * limit)
     };
     assert!((at(0.9, &mut memory) - 0.5).abs() < 1e-12);
     assert!(at(0.8, &mut memory).abs() < 1e-12);
@@ -180,7 +185,7 @@ fn without_adhesion_the_force_is_zero_below_the_plastic_overlap_and_never_negati
 fn loop_of(interpolation: Interpolation, overlap_max: f64, k2: f64) {
     let law = Luding { interpolation, ..LAW };
     let mut memory = LudingMemory::default();
-    let mut at = |overlap: f64| law.respond(&pair(), overlap, &mut memory).force;
+    let mut at = |overlap: f64| respond(&law, &pair(), overlap, &mut memory).force;
     let scale = 1e-12 * law.k1 * law.plastic_limit(&pair()).min(1.0);
     let close = |found: f64, expected: f64| assert!((found - expected).abs() < scale, "{found} {expected}");
     let force_free = (1.0 - law.k1 / k2) * overlap_max;
@@ -202,13 +207,13 @@ fn a_square_root_contact_hardens_with_the_root_of_the_overlap() {
     let law = Luding { interpolation: Interpolation::SquareRoot, ..LAW };
     let limit = law.plastic_limit(&pair());
     let mut memory = LudingMemory::default();
-    law.respond(&pair(), limit, &mut memory);
-    let answer = law.respond(&pair(), 0.125 * limit, &mut memory);
+    respond(&law, &pair(), limit, &mut memory);
+    let answer = respond(&law, &pair(), 0.125 * limit, &mut memory);
     assert!((answer.force + 0.125 * law.kc * limit).abs() < 1e-12 * law.k1 * limit);
     assert!((memory.overlap_max / limit - 0.25).abs() < 1e-14, "{}", memory.overlap_max / limit);
     // Re-loading follows k2 = 300 N/m.
     let step = 0.01 * limit;
-    let reloaded = law.respond(&pair(), 0.125 * limit + step, &mut memory);
+    let reloaded = respond(&law, &pair(), 0.125 * limit + step, &mut memory);
     assert!((reloaded.force - answer.force - 300.0 * step).abs() < 1e-12 * law.k1 * limit);
 }
 
@@ -220,7 +225,7 @@ fn a_contact_of_constant_stiffness_unloads_along_kp_from_any_overlap() {
     let law = Luding { interpolation: Interpolation::Constant, kc: 0.0, ..LAW };
     let mut memory = LudingMemory::default();
     let overlap = 3e-5;
-    let answer = law.respond(&pair(), overlap, &mut memory);
+    let answer = respond(&law, &pair(), overlap, &mut memory);
     let work = 0.5 * law.k1 * overlap * overlap;
     assert!((answer.stored_energy / work - law.k1 / law.kp).abs() < 1e-14);
     assert!((answer.dissipated_plastic / work - 0.8).abs() < 1e-14);
@@ -231,8 +236,8 @@ fn a_full_loop_loses_half_of_force_free_overlap_times_both_extreme_forces() {
     // W = ½ δ_0 (k1 D + kc δ_min), the area of the loop; at D = δ_p: δ_0 = 0.8, δ_min = 2/3.
     let limit = reference_limit();
     let mut memory = LudingMemory::default();
-    let loaded = LAW.respond(&pair(), 1.7 * limit, &mut memory);
-    let opened = LAW.respond(&pair(), 0.0, &mut memory);
+    let loaded = respond(&LAW, &pair(), 1.7 * limit, &mut memory);
+    let opened = respond(&LAW, &pair(), 0.0, &mut memory);
     let lost = loaded.dissipated_plastic + opened.dissipated_adhesive;
     let expected = 0.5 * 0.8 * (1.0 + 2.0 / 3.0) * LAW.k1 * limit * limit;
     assert!((lost / expected - 1.0).abs() < 1e-13, "{lost} {expected}");

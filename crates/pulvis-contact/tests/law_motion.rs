@@ -9,7 +9,7 @@
 use std::f64::consts::PI;
 
 use pulvis_contact::normal::Interpolation;
-use pulvis_contact::{ContactLaws, ContactModel, Linear, Luding, Normal, SpringSlider};
+use pulvis_contact::{ContactLaws, ContactModel, Friction, Linear, Luding, Normal, SpringSlider};
 use pulvis_math::Vector3;
 use pulvis_testkit::bodies::{Couple, Sphere};
 
@@ -19,13 +19,17 @@ const X: Vector3 = Vector3::new(1.0, 0.0, 0.0);
 const Y: Vector3 = Vector3::new(0.0, 1.0, 0.0);
 const Z: Vector3 = Vector3::new(0.0, 0.0, 1.0);
 
-fn spring(stiffness: f64, coefficient: f64) -> Option<SpringSlider> {
-    Some(SpringSlider {
+fn slider(stiffness: f64, coefficient: f64) -> SpringSlider {
+    SpringSlider {
         stiffness,
         dashpot: 0.0,
         dynamic_coefficient: coefficient,
         static_coefficient: coefficient,
-    })
+    }
+}
+
+fn spring(stiffness: f64, coefficient: f64) -> Option<Friction> {
+    Some(slider(stiffness, coefficient).into())
 }
 
 fn model(normal: impl Into<Normal>, laws: ContactLaws) -> ContactModel {
@@ -124,7 +128,7 @@ fn rolling_and_torsion_oscillate_at_their_frequencies() {
 /// An oblique impact of two equal spheres; returns the tangential velocity of the contact point after it
 /// and the speed of separation [m/s].
 fn impact(normal: Linear, sliding: SpringSlider, approach: f64, sideways: f64, steps: f64) -> (f64, f64) {
-    let laws = ContactLaws { sliding: Some(sliding), ..ContactLaws::default() };
+    let laws = ContactLaws { sliding: Some(sliding.into()), ..ContactLaws::default() };
     let mut first = Sphere::at_rest(MASS, RADIUS, Z * (2.0 * RADIUS));
     first.velocity = X * sideways - Z * approach;
     let mut couple =
@@ -141,7 +145,7 @@ const STIFFNESS: f64 = 1e7;
 fn a_sticking_oblique_impact_reverses_the_contact_point_by_a_cosine() {
     // v_ct'/v_ct = cos(π √(7 k_t/(2 k))), and −1 at k_t/k = 2/7, where both half periods agree.
     for (ratio, expected) in [(0.2, -0.8712035704), (2.0 / 7.0, -1.0), (0.5, -0.5281772577)] {
-        let sliding = spring(ratio * STIFFNESS, 1e9).unwrap();
+        let sliding = slider(ratio * STIFFNESS, 1e9);
         let after = |steps: f64| impact(Linear::new(STIFFNESS, 0.0), sliding, 1e-3, 1e-5, steps).0 / 1e-5;
         let (coarse, fine) = (after(400.3), after(6400.3));
         // Contact ends up to a step late, where the force is not small: first order in the step.
@@ -155,7 +159,7 @@ fn gross_sliding_takes_seven_halves_of_friction_times_the_normal_impulse() {
     for restitution in [1.0, 0.6] {
         let (friction, approach, sideways) = (0.2, 1e-3, 5e-3);
         let law = Linear::from_restitution(STIFFNESS, restitution);
-        let sliding = spring(STIFFNESS, friction).unwrap();
+        let sliding = slider(STIFFNESS, friction);
         let after = |steps: f64| impact(law, sliding, approach, sideways, steps);
         let (fine, separation) = after(1600.3);
         // Friction refers to the elastic force, whose impulse is m_r (1 + e) v_n also with a dashpot, as
@@ -171,8 +175,8 @@ fn gross_sliding_takes_seven_halves_of_friction_times_the_normal_impulse() {
 fn a_sphere_that_slides_on_a_plane_comes_to_roll_with_five_sevenths_of_its_speed() {
     let (friction, speed, gravity) = (0.3, 1.0, 9.81);
     let stiffness = 1e6;
-    let slider = SpringSlider { dashpot: 5.0, ..spring(2e5, friction).unwrap() };
-    let laws = ContactLaws { sliding: Some(slider), ..ContactLaws::default() };
+    let slider = SpringSlider { dashpot: 5.0, ..slider(2e5, friction) };
+    let laws = ContactLaws { sliding: Some(slider.into()), ..ContactLaws::default() };
     let load = MASS * gravity / stiffness;
     let mut sphere = Sphere::at_rest(MASS, RADIUS, Z * (RADIUS - load));
     sphere.velocity = X * speed;

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pulvis_contact::catalogue::{InvalidParameter, Role, Values};
-use pulvis_contact::{ContactLaws, ContactModel, Linear, Normal, SpringSlider, friction};
+use pulvis_contact::{ContactLaws, ContactModel, Friction, Linear, Normal, SpringSlider, friction};
 
 fn luding(k1: f64, kp: f64) -> Result<Normal, InvalidParameter> {
     let values = Values::new().with("k1", k1).with("kp", kp).with("kc", 0.0).with("phi_f", 0.05);
@@ -28,7 +28,8 @@ fn static_friction_below_dynamic_friction_is_refused_in_every_role() {
         let values = Values::new().with(stiffness, 1.0).with(dynamic, 0.5);
         let built = |values: &Values| friction::build(role, "spring-slider", values).unwrap();
         // Not given, it equals the dynamic one.
-        assert_eq!(built(&values).unwrap().unwrap().static_coefficient, 0.5);
+        let Some(Friction::SpringSlider(slider)) = built(&values).unwrap() else { panic!("a spring-slider") };
+        assert_eq!(slider.static_coefficient, 0.5);
         assert!(built(&values.clone().with(fixed, 0.5)).is_ok());
         assert_eq!(built(&values.with(fixed, 0.4)).unwrap_err().name(), fixed);
     }
@@ -46,8 +47,9 @@ fn a_linear_spring_or_dashpot_given_twice_or_not_at_all_is_refused() {
     assert_eq!(refused(two), "damping_rate");
 }
 
-fn spring(stiffness: f64) -> Option<SpringSlider> {
-    Some(SpringSlider { stiffness, dashpot: 0.0, dynamic_coefficient: 1.0, static_coefficient: 1.0 })
+fn spring(stiffness: f64) -> Option<Friction> {
+    let slider = SpringSlider { stiffness, dashpot: 0.0, dynamic_coefficient: 1.0, static_coefficient: 1.0 };
+    Some(slider.into())
 }
 
 #[test]

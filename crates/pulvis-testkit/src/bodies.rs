@@ -4,7 +4,7 @@
 use pulvis_contact::{ContactKinematics, ContactModel};
 use pulvis_math::Vector3;
 
-use crate::live::{AnyContact, Springs, contact};
+use crate::live::{LiveContact, Springs};
 use crate::parameters::pair_of;
 
 /// A solid sphere.
@@ -99,7 +99,7 @@ pub struct Couple {
     pub normal_force: f64,
     /// Overlap of the last step [m].
     pub overlap: f64,
-    contact: Box<dyn AnyContact>,
+    contact: LiveContact,
     rates: [(Vector3, Vector3); 2],
     power: f64,
 }
@@ -117,7 +117,7 @@ impl Couple {
             lost: 0.0,
             normal_force: 0.0,
             overlap: 0.0,
-            contact: contact(model, pair),
+            contact: LiveContact::new(model, pair),
             rates: [(zero, zero); 2],
             power: 0.0,
         };
@@ -191,6 +191,11 @@ impl Couple {
         self.power = energies.viscous_power;
         self.normal_force = answer.normal_force;
         self.overlap = motion.overlap;
+    }
+
+    /// The contact with its memory.
+    pub fn contact(&self) -> &LiveContact {
+        &self.contact
     }
 
     /// The springs of the contact.

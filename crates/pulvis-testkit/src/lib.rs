@@ -30,4 +30,4 @@ pub mod viscosity;
 
 pub use cases::for_each_case;
 pub use draw::Draw;
-pub use live::{AnyContact, Springs, contact};
+pub use live::{LiveContact, Springs};

@@ -1,72 +1,90 @@
-//! A contact whose normal law is known at run time only.
+//! A contact with its memory.
 
-use pulvis_contact::{
-    ContactKinematics, ContactLaws, ContactMemory, ContactModel, ContactResponse, NormalLaw,
-    NormalLawVisitor, Pair, resistance,
-};
+use pulvis_contact::catalogue::Role;
+use pulvis_contact::{ContactKinematics, ContactModel, ContactResponse, Friction, MemoryLayout, Pair};
 use pulvis_math::Vector3;
 
-/// The springs of a contact.
+/// What the laws against sliding, rolling and torsion remember as vectors of the tangent plane and as a number along
+/// the line of centres: the stretch of a spring [m], or its force [N].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Springs {
-    /// Sliding spring [m].
+    /// Of sliding.
     pub sliding: Vector3,
-    /// Rolling spring [m].
+    /// Of rolling.
     pub rolling: Vector3,
-    /// Torsion spring along the line of centres [m].
+    /// Of torsion, along the line of centres.
     pub torsion: f64,
-    /// 1 where the pair has touched since it was last out of reach.
-    pub touched: f64,
 }
 
-/// A contact with its memory.
-pub trait AnyContact {
-    /// Forces, torques and energies after the step of `time_step` [s] that led to `motion`.
-    fn respond(&mut self, motion: &ContactKinematics<f64>, time_step: f64) -> ContactResponse<f64>;
-    /// The springs.
-    fn springs(&self) -> Springs;
-}
-
-/// A virgin contact of `model` between the bodies of `pair`.
-pub fn contact(model: &ContactModel, pair: Pair) -> Box<dyn AnyContact> {
-    model.normal.accept(Boxed { laws: model.laws, pair })
-}
-
-struct Boxed {
-    laws: ContactLaws,
+/// A contact of any laws between two bodies, with its memory.
+#[derive(Clone, Debug)]
+pub struct LiveContact {
+    model: ContactModel,
     pair: Pair,
+    layout: MemoryLayout,
+    columns: Vec<f64>,
 }
 
-impl NormalLawVisitor for Boxed {
-    type Output = Box<dyn AnyContact>;
-    fn visit<N: NormalLaw>(self, law: N) -> Box<dyn AnyContact> {
-        Box::new(Live { law, laws: self.laws, pair: self.pair, memory: ContactMemory::default() })
+impl LiveContact {
+    /// A virgin contact of `model` between the bodies of `pair`.
+    pub fn new(model: &ContactModel, pair: Pair) -> Self {
+        let layout = model.memory_layout();
+        Self { model: *model, pair, layout, columns: vec![0.0; layout.columns()] }
     }
-}
 
-struct Live<N: NormalLaw> {
-    law: N,
-    laws: ContactLaws,
-    pair: Pair,
-    memory: ContactMemory<f64, N::Memory<f64>>,
-}
+    /// Forces, torques and energies after the step of `time_step` [s] that led to `motion`.
+    pub fn respond(&mut self, motion: &ContactKinematics<f64>, time_step: f64) -> ContactResponse<f64> {
+        self.model.respond(&self.pair, motion, time_step, &mut self.columns)
+    }
 
-impl<N: NormalLaw> AnyContact for Live<N> {
-    fn respond(&mut self, motion: &ContactKinematics<f64>, time_step: f64) -> ContactResponse<f64> {
-        let Self { law, laws, pair, memory } = self;
-        match laws.resistance_level() {
-            resistance::NONE => {
-                laws.respond::<f64, N, { resistance::NONE }>(law, pair, motion, time_step, memory)
-            }
-            resistance::SLIDING => {
-                laws.respond::<f64, N, { resistance::SLIDING }>(law, pair, motion, time_step, memory)
-            }
-            _ => laws.respond::<f64, N, { resistance::ALL }>(law, pair, motion, time_step, memory),
+    /// The memory.
+    pub fn columns(&self) -> &[f64] {
+        &self.columns
+    }
+
+    /// The column with this name (without its unit).
+    pub fn column(&self, name: &str) -> Option<f64> {
+        self.layout.column(name).map(|column| self.columns[column])
+    }
+
+    /// The first column of a friction law.
+    fn start(&self, law: &Option<Friction>, role: Role) -> Option<usize> {
+        let name = law.as_ref()?.entry(role)?.memory.first()?;
+        self.layout.names().position(|known| known == *name)
+    }
+
+    fn vector(&self, start: Option<usize>) -> Vector3 {
+        let at = |offset: usize| start.map_or(0.0, |start| self.columns[start + offset]);
+        Vector3::new(at(0), at(1), at(2))
+    }
+
+    fn starts(&self) -> [Option<usize>; 3] {
+        let laws = &self.model.laws;
+        [
+            self.start(&laws.sliding, Role::Sliding),
+            self.start(&laws.rolling, Role::Rolling),
+            self.start(&laws.torsion, Role::Torsion),
+        ]
+    }
+
+    /// The springs.
+    pub fn springs(&self) -> Springs {
+        let [sliding, rolling, torsion] = self.starts();
+        Springs {
+            sliding: self.vector(sliding),
+            rolling: self.vector(rolling),
+            torsion: torsion.map_or(0.0, |start| self.columns[start]),
         }
     }
 
-    fn springs(&self) -> Springs {
-        let ContactMemory { touched, sliding, rolling, torsion, .. } = self.memory;
-        Springs { sliding, rolling, torsion, touched }
+    /// The columns that belong to no spring: they look the same from everywhere.
+    pub fn scalars(&self) -> Vec<f64> {
+        let [sliding, rolling, torsion] = self.starts();
+        let in_springs = |column: usize| {
+            [sliding, rolling].into_iter().flatten().any(|start| (start..start + 3).contains(&column))
+                || torsion == Some(column)
+        };
+        let all = self.columns.iter().enumerate();
+        all.filter(|(column, _)| !in_springs(*column)).map(|(_, value)| *value).collect()
     }
 }

@@ -3,7 +3,7 @@
 use pulvis_contact::catalogue::{
     InvalidParameter, Kind, LawEntry, Parameter, Presence, Range, Value, Values,
 };
-use pulvis_contact::{Pair, SpringSlider, friction};
+use pulvis_contact::{ExpectedLoading, Friction, Pair, friction};
 use pulvis_math::elementary;
 
 use crate::draw::Draw;
@@ -63,7 +63,7 @@ pub fn random_law<L>(
 }
 
 /// A friction law of random parameters.
-pub fn random_friction(entry: &LawEntry, draw: &mut Draw) -> Option<SpringSlider> {
+pub fn random_friction(entry: &LawEntry, draw: &mut Draw) -> Option<Friction> {
     random_law(entry, draw, |name, values| friction::build(entry.role, name, values))
 }
 
@@ -150,4 +150,11 @@ pub fn pair_of((mass_i, radius_i): (f64, f64), body_j: Option<(f64, f64)>) -> Pa
 pub fn random_pair(draw: &mut Draw) -> Pair {
     let (body_i, body_j) = random_bodies(draw);
     pair_of(body_i, body_j)
+}
+
+/// The loading of contacts that are pressed to an overlap [m]: laws without a steepest slope take their stiffness from
+/// it.
+pub fn loaded_to(overlap: f64, pair: &Pair) -> ExpectedLoading {
+    // Over the effective radius, half the harmonic mean.
+    ExpectedLoading { speed: 0.0, force: 0.0, overlap: 2.0 * overlap * pair.inverse_harmonic_radius() }
 }

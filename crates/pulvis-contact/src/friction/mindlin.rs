@@ -185,6 +185,8 @@ impl FrictionLaw for Mindlin {
         let half = R::splat(0.5);
         let stiffness = R::splat(8.0 * self.effective_shear_modulus) * motion.contact_radius;
         let (carried, energy, mut lost) = self.receded(*vector, scalars[0], stiffness);
+        // In the half kick before the area shrank the whole force did its work.
+        lost += (*vector - carried).scaled(half).dot(motion.displacement);
         let mut damping = motion.velocity.scaled(R::splat(self.dashpot));
         let mut force = T::zero() - carried - motion.displacement.scaled(stiffness);
         if self.dashpot != 0.0 {
@@ -214,9 +216,11 @@ impl FrictionLaw for Mindlin {
         let own = quotient(half * after.norm_squared(), stiffness).keep_where(motion.in_contact);
         let kept = R::select(forgets, own, stored);
         lost += (stored - kept).keep_where(forgets);
+        // An open contact has no area: it gives up its force without slipping.
+        let opens = !motion.in_contact & scalars[0].gt(R::zero());
         *vector = T::select(motion.in_contact, after, T::zero());
         scalars[0] = kept;
-        (FrictionResponse { force, stored_energy: kept, dissipated_slip: lost, viscous_power }, slips)
+        (FrictionResponse { force, stored_energy: kept, dissipated_slip: lost, viscous_power }, slips | opens)
     }
 
     #[inline(always)]

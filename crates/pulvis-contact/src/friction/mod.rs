@@ -59,8 +59,9 @@ pub trait FrictionLaw: Copy {
     /// What it remembers beside the vector.
     type Scalars<R: Real>: Memory<R>;
 
-    /// Advances the memory and answers with the force, and with whether the contact slips. An open contact
-    /// (`in_contact` false, reference zero) is left without force and without memory.
+    /// Advances the memory and answers with the force, and with whether the contact slips, or gives up a
+    /// force because it has opened. An open contact (`in_contact` false, reference zero) is left without force and
+    /// without memory.
     fn respond<R: Real, T: Tangent<R>>(
         &self,
         motion: &SpringMotion<T, R>,
@@ -157,8 +158,8 @@ macro_rules! friction_laws {
             name: &str,
             values: &Values,
         ) -> Option<Result<Option<Friction>, InvalidParameter>> {
-            if $none::entry(role).is_some_and(|entry| entry.name == name) {
-                return Some(Ok(None));
+            if let Some(entry) = $none::entry(role).filter(|entry| entry.name == name) {
+                return Some(entry.complete(values).map(|_| None));
             }
             if let Some(entry) = $common_module::entry(role).filter(|entry| entry.name == name) {
                 let law = entry.complete(values).and_then(|values| $common_module::build(role, &values));

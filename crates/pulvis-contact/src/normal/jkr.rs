@@ -132,13 +132,15 @@ impl NormalLaw for Jkr {
             lost =
                 (energy * number(SNAP_IN)).keep_where(sets_in) + (energy * number(SNAP_OFF)).keep_where(ends);
             let separation_force = number(-5.0) * ninth;
-            applied_force = weighted(motion, force, unit, separation_force, [sets_in & attached, ends]);
+            // Bodies that overlapped already, in a first look or under another law, met before this step.
+            let meets = sets_in & attached & !motion.touched_before();
+            applied_force = weighted(motion, force, unit, separation_force, [meets, ends]);
         }
         memory[0] = root.keep_where(attached);
         NormalResponse {
             applied_force,
             in_contact: attached,
-            was_in_contact: before,
+            was_in_contact: before | motion.touched_before(),
             friction_reference: limit,
             contact_radius,
             adhesive_potential: surface,
@@ -167,11 +169,12 @@ impl NormalLaw for Jkr {
 
     const STIFFNESS_IS_BOUNDED: bool = false;
 
-    /// At least twice the radius at which the neck breaks.
+    /// That at the overlap to which elastic spheres are pressed; at least twice the radius at which the neck breaks.
     fn expected_contact_radius(&self, pair: &Pair<f64>, expected: &ExpectedLoading) -> f64 {
-        let radius = effective_radius(pair);
-        let hertz = (radius * expected_overlap(self.effective_modulus, pair, expected)).sqrt();
-        hertz.max(2.0 * self.separation_radius(radius))
+        let separation_radius = self.separation_radius(effective_radius(pair));
+        let overlap = expected_overlap(self.effective_modulus, pair, expected);
+        let y = invert(3.0 * (1.0 + overlap / self.interaction_range(pair)));
+        separation_radius * (y * y).max(2.0)
     }
 }
 

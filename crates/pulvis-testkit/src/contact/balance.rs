@@ -4,7 +4,7 @@ use pulvis_contact::{ContactEnergies, ContactModel};
 
 use super::Dance;
 use crate::bodies::{Kinematics, pair_motion};
-use crate::live::contact;
+use crate::live::LiveContact;
 
 /// Closing error of the energy balance of `model` along `dance`, once for each number of steps: the
 /// largest part of the work done on the contact that is neither stored nor lost, over all the energy
@@ -17,14 +17,16 @@ pub fn closing_errors<const N: usize>(model: &ContactModel, dance: &Dance, steps
 }
 
 fn closing_error(model: &ContactModel, dance: &Dance, count: usize) -> f64 {
-    let mut contact = contact(model, dance.pair);
+    let mut contact = LiveContact::new(model, dance.pair);
     let dt = dance.duration / count as f64;
     let mut before: Option<(Work, ContactEnergies<f64>)> = None;
     let (mut work, mut turned_over, mut lost, mut start) = (0.0, 0.0, 0.0, 0.0);
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
     for step in 0..=count {
         let [i, j] = dance.step(step, count);
-        let answer = contact.respond(&pair_motion(dance.radius_i, &i, Some((dance.radius_j, &j))), dt);
+        // The first answer is a look at the contact, as an engine takes it before its first step.
+        let elapsed = if step == 0 { 0.0 } else { dt };
+        let answer = contact.respond(&pair_motion(dance.radius_i, &i, Some((dance.radius_j, &j))), elapsed);
         let now = Work { force: answer.force, torques: [answer.torque_i, answer.torque_j] };
         let e = answer.energies;
         if let Some((then, earlier)) = &before {

@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use pulvis_contact::{ContactModel, NormalLaw, NormalLawVisitor, Pair};
+use pulvis_contact::{ContactModel, NormalLaw, NormalLawVisitor, NormalMotion, Pair};
 use pulvis_math::{Vector3, elementary};
 
 use crate::bodies::Kinematics;
 use crate::draw::Draw;
-use crate::parameters::{pair_of, random_bodies};
+use crate::parameters::{loaded_to, pair_of, random_bodies};
 
 /// A smooth prescribed motion of two spheres.
 #[derive(Clone, Debug)]
@@ -46,8 +46,15 @@ impl Dance {
         let (body_i, body_j) = random_bodies(draw);
         let body_j = body_j.unwrap_or((3.0 * body_i.0, 1.5 * body_i.1));
         let pair = pair_of(body_i, Some(body_j));
-        let (scale, max_stiffness) = model.normal.accept(Scales(pair));
+        let range = model.normal.interaction_range(&pair);
+        // Laws that act at a distance are looked at near there as often as at the scale of the bodies.
+        let scale = if range > 0.0 && draw.chance(0.5) {
+            10.0 * range
+        } else {
+            model.normal.accept(OverlapScale(pair))
+        };
         let depth = scale.min(0.05 * pair.harmonic_radius()) * draw.log_between(0.05, 0.8);
+        let max_stiffness = model.normal.max_stiffness(&pair, &loaded_to(2.0 * depth, &pair));
         // Slow enough for springs to follow, fast enough for dashpots to be felt.
         let duration = 20.0 * (pair.reduced_mass() / max_stiffness).sqrt();
         let slip = depth * draw.log_between(0.3, 10.0) / duration;
@@ -124,13 +131,13 @@ impl Dance {
     }
 }
 
-/// The overlap scale [m] and the steepest slope [N/m] of a law.
-struct Scales(Pair);
+/// The overlap that a law takes as its scale [m].
+struct OverlapScale(Pair);
 
-impl NormalLawVisitor for Scales {
-    type Output = (f64, f64);
-    fn visit<N: NormalLaw>(self, law: N) -> (f64, f64) {
+impl NormalLawVisitor for OverlapScale {
+    type Output = f64;
+    fn visit<N: NormalLaw>(self, law: &N) -> f64 {
         let mut memory = <N::Memory<f64>>::default();
-        (law.respond(&self.0, 0.0, &mut memory).inverse_overlap_scale.recip(), law.max_stiffness(&self.0))
+        law.respond(&NormalMotion::at_rest(&self.0, 0.0), &mut memory).inverse_overlap_scale.recip()
     }
 }

@@ -1,8 +1,8 @@
 //! One text of the whole contact serves a number and eight numbers.
 
+use pulvis_contact::normal::{CommonLawVisitor, Inlined};
 use pulvis_contact::{
-    ContactKinematics, ContactLaws, ContactMemory, ContactModel, ContactResponse, Memory, NormalLaw,
-    NormalLawVisitor, Pair, resistance,
+    ContactInputs, ContactKinematics, ContactModel, ContactResponse, NormalLaw, Pair, levels,
 };
 use pulvis_math::{F64Array, Real, Vector3};
 
@@ -19,54 +19,58 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number(model: &ContactModel, draw
     // One time step for all.
     let duration = dances[0].duration;
     dances.iter_mut().for_each(|dance| dance.duration = duration);
-    model.normal.accept(Suite { laws: model.laws, dances });
-}
-
-struct Suite {
-    laws: ContactLaws,
-    dances: Vec<Dance>,
-}
-
-impl NormalLawVisitor for Suite {
-    type Output = ();
-    fn visit<N: NormalLaw>(self, law: N) {
-        let Self { laws, dances } = self;
-        let pairs = Pair::<Eight>::from_fn(|lane| dances[lane].pair);
-        let dt = dances[0].duration / STEPS as f64;
-        let mut memory = ContactMemory::<Eight, N::Memory<Eight>>::default();
-        let mut memories = [ContactMemory::<f64, N::Memory<f64>>::default(); 8];
-        for step in 0..=STEPS {
-            let motions: Vec<ContactKinematics<f64>> = dances
-                .iter()
-                .enumerate()
-                .map(|(lane, dance)| {
-                    let [i, j] = dance.step(step, STEPS);
-                    let mut motion = pair_motion(dance.radius_i, &i, Some((dance.radius_j, &j)));
-                    if lane == 7 {
-                        // One wall among the pairs.
-                        (motion.inverse_distance, motion.radius_j) = (0.0, 0.0);
-                    }
-                    motion
-                })
-                .collect();
-            let together = laws.respond::<Eight, N, { resistance::ALL }>(
-                &law,
-                &pairs,
-                &gathered(&motions),
-                dt,
-                &mut memory,
-            );
-            for lane in 0..8 {
-                let alone = laws.respond::<f64, N, { resistance::ALL }>(
-                    &law,
-                    &dances[lane].pair,
-                    &motions[lane],
-                    dt,
-                    &mut memories[lane],
-                );
-                assert_eq!(numbers(&together, lane), numbers(&alone, 0), "{law:?} {laws:?} {alone:?}");
-                assert_eq!(state(&memory, lane), state(&memories[lane], 0), "{law:?} {laws:?}");
+    let pairs = Pair::<Eight>::from_fn(|lane| dances[lane].pair);
+    let dt = duration / STEPS as f64;
+    let columns = model.memory_layout().columns();
+    let mut memory = vec![Eight::zero(); columns];
+    let mut inlined_memory = memory.clone();
+    let mut memories = vec![vec![0.0; columns]; 8];
+    for step in 0..=STEPS {
+        let motions: Vec<_> = dances.iter().enumerate().map(|(lane, dance)| motion(dance, step, lane)).collect();
+        let kinematics = gathered(&motions);
+        let together = model.respond(&pairs, &kinematics, dt, &mut memory);
+        let inputs = ContactInputs { pair: &pairs, motion: &kinematics, time_step: dt };
+        let of_loop = InLoop { model, inputs, columns: &mut inlined_memory };
+        let of_loop = if model.is_common() { model.normal.accept_common(of_loop).ok() } else { None };
+        for lane in 0..8 {
+            let alone = model.respond(&dances[lane].pair, &motions[lane], dt, &mut memories[lane]);
+            assert_eq!(numbers(&together, lane), numbers(&alone, 0), "{model:?} {alone:?}");
+            assert_eq!(state(&memory, lane), state(&memories[lane], 0), "{model:?}");
+            if let Some(of_loop) = &of_loop {
+                assert_eq!(numbers(of_loop, lane), numbers(&alone, 0), "inlined: {model:?} {alone:?}");
+                assert_eq!(state(&inlined_memory, lane), state(&memories[lane], 0), "inlined: {model:?}");
             }
+        }
+    }
+}
+
+fn motion(dance: &Dance, step: usize, lane: usize) -> ContactKinematics<f64> {
+    let [i, j] = dance.step(step, STEPS);
+    let mut motion = pair_motion(dance.radius_i, &i, Some((dance.radius_j, &j)));
+    if lane == 7 {
+        // One wall among the pairs.
+        (motion.inverse_distance, motion.radius_j) = (0.0, 0.0);
+    }
+    motion
+}
+
+/// The answer as the engine's loops for common contacts compute it.
+struct InLoop<'a> {
+    model: &'a ContactModel,
+    inputs: ContactInputs<'a, Eight>,
+    columns: &'a mut [Eight],
+}
+
+impl CommonLawVisitor for InLoop<'_> {
+    type Output = ContactResponse<Eight>;
+    fn visit<N: NormalLaw>(self, law: N) -> ContactResponse<Eight> {
+        let Self { model, inputs, columns } = self;
+        let (laws, law, layout) = (model.laws, Inlined(law), model.memory_layout());
+        let slots = layout.slots();
+        match laws.resistance_level() {
+            levels::NONE => laws.respond::<_, _, _, { levels::NONE }>(&law, slots, inputs, columns),
+            levels::SLIDING => laws.respond::<_, _, _, { levels::SLIDING }>(&law, slots, inputs, columns),
+            _ => laws.respond::<_, _, _, { levels::ALL }>(&law, slots, inputs, columns),
         }
     }
 }
@@ -107,11 +111,6 @@ fn numbers<R: Real>(answer: &ContactResponse<R>, lane: usize) -> Vec<u64> {
     all.into_iter().map(|number| number.lane(lane).to_bits()).collect()
 }
 
-fn state<R: Real, M: Memory<R>>(memory: &ContactMemory<R, M>, lane: usize) -> Vec<u64> {
-    let mut all = vec![memory.touched, memory.torsion];
-    for vector in [memory.sliding, memory.rolling] {
-        all.extend([vector.x, vector.y, vector.z]);
-    }
-    memory.normal.store(|_, column| all.push(column));
-    all.into_iter().map(|number| number.lane(lane).to_bits()).collect()
+fn state<R: Real>(columns: &[R], lane: usize) -> Vec<u64> {
+    columns.iter().map(|column| column.lane(lane).to_bits()).collect()
 }

@@ -1,7 +1,9 @@
 //! What every composition of laws promises, whichever laws and conventions it is made of.
 
 use pulvis_contact::catalogue::{Law, Role};
-use pulvis_contact::{ContactLaws, ContactModel, Conventions, NonContact, Normal, Viscosity, friction};
+use pulvis_contact::{
+    ContactLaws, ContactModel, Conventions, ExpectedLoading, NonContact, Normal, Viscosity, friction,
+};
 
 use crate::draw::Draw;
 use crate::for_each_case;
@@ -52,7 +54,11 @@ pub fn random_model(draw: &mut Draw) -> ContactModel {
     };
     let (sliding, rolling, torsion) =
         (resistance(Role::Sliding), resistance(Role::Rolling), resistance(Role::Torsion));
-    let laws = ContactLaws { noncontact, viscosity, sliding, rolling, torsion, conventions };
+    let expected = random_law(&ExpectedLoading::ENTRY, draw, |_, values| {
+        let entry = ExpectedLoading::ENTRY;
+        Some(entry.complete(values).and_then(|values| ExpectedLoading::from_values(&values)))
+    });
+    let laws = ContactLaws { noncontact, viscosity, sliding, rolling, torsion, conventions, expected };
     let normal = draw.one_of(Normal::ENTRIES);
     ContactModel { normal: random_law(normal, draw, Normal::build), laws }
 }

@@ -4,7 +4,7 @@ use pulvis_contact::ContactModel;
 use pulvis_math::{Vector3, elementary};
 
 use crate::bodies::{Kinematics, pair_motion};
-use crate::live::{Springs, contact};
+use crate::live::{LiveContact, Springs};
 use crate::parameters::pair_of;
 
 /// A stuck pair before and after a rotation.
@@ -35,7 +35,7 @@ pub fn rigid_rotation(
     steps: u32,
 ) -> RigidRotation {
     let (radius_i, radius_j) = (1.0e-3, 0.7e-3);
-    let mut contact = contact(model, pair_of((1e-5, radius_i), Some((4e-6, radius_j))));
+    let mut contact = LiveContact::new(model, pair_of((1e-5, radius_i), Some((4e-6, radius_j))));
     let distance = radius_i + radius_j - overlap;
     let z = Vector3::new(0.0, 0.0, 1.0);
     let at = |position: Vector3, velocity: Vector3, angular_velocity: Vector3| Kinematics {

@@ -7,7 +7,7 @@ use pulvis_math::{Vector3, elementary};
 use super::Dance;
 use crate::bodies::{Kinematics, pair_motion};
 use crate::draw::Draw;
-use crate::live::{Springs, contact};
+use crate::live::{LiveContact, Springs};
 
 const STEPS: usize = 60;
 
@@ -15,8 +15,15 @@ const STEPS: usize = 60;
 /// velocities from differences of positions one of 1e-10; dashpots add both up over sixty steps.
 const ROUND_OFF: f64 = 1e-7;
 
-type Performance = Vec<(ContactResponse<f64>, Springs)>;
-type Size<'a> = &'a dyn Fn(&(ContactResponse<f64>, Springs)) -> f64;
+/// One answer of a contact and what it remembers then.
+struct Moment {
+    answer: ContactResponse<f64>,
+    springs: Springs,
+    scalars: Vec<f64>,
+}
+
+type Performance = Vec<Moment>;
+type Size<'a> = &'a dyn Fn(&Moment) -> f64;
 
 /// How a contact looks from elsewhere.
 struct View {
@@ -55,13 +62,12 @@ impl View {
             sliding: if self.exchanged { -sliding } else { sliding },
             rolling: (self.polar)(springs.rolling),
             torsion: self.torsion * springs.torsion,
-            ..*springs
         }
     }
 }
 
 fn perform(model: &ContactModel, dance: &Dance, view: &View) -> Performance {
-    let mut contact = contact(model, dance.pair);
+    let mut contact = LiveContact::new(model, dance.pair);
     let dt = dance.duration / STEPS as f64;
     let radii = [dance.radius_i, dance.radius_j];
     let [radius_i, radius_j] = if view.exchanged { [radii[1], radii[0]] } else { radii };
@@ -69,7 +75,7 @@ fn perform(model: &ContactModel, dance: &Dance, view: &View) -> Performance {
         .map(|step| {
             let [i, j] = view.kinematics(dance, step);
             let answer = contact.respond(&pair_motion(radius_i, &i, Some((radius_j, &j))), dt);
-            (answer, contact.springs())
+            Moment { answer, springs: contact.springs(), scalars: contact.scalars() }
         })
         .collect()
 }
@@ -82,12 +88,16 @@ fn as_it_is() -> View {
 fn looks_the_same(model: &ContactModel, dance: &Dance, view: &View) {
     let (direct, seen) = (perform(model, dance, &as_it_is()), perform(model, dance, view));
     let largest = |size: Size| ROUND_OFF * direct.iter().map(size).fold(1e-290, f64::max);
-    let force = largest(&|(answer, _)| answer.force.norm());
-    let torque = largest(&|(answer, _)| answer.torque_i.norm().max(answer.torque_j.norm()));
-    let spring = largest(&|(_, s)| s.sliding.norm().max(s.rolling.norm()).max(s.torsion.abs()));
-    let energy = largest(&|(answer, _)| numbers(&answer.energies)[..10].iter().map(|e| e.abs()).sum());
-    let power = largest(&|(answer, _)| answer.energies.viscous_power);
-    for (step, ((answer, springs), (other, others))) in direct.iter().zip(&seen).enumerate() {
+    let force = largest(&|Moment { answer, .. }| answer.force.norm());
+    let torque = largest(&|Moment { answer, .. }| answer.torque_i.norm().max(answer.torque_j.norm()));
+    let spring = largest(&|Moment { springs: s, .. }| s.sliding.norm().max(s.rolling.norm()).max(s.torsion.abs()));
+    let energy = largest(&|Moment { answer, .. }| numbers(&answer.energies)[..10].iter().map(|e| e.abs()).sum());
+    let power = largest(&|Moment { answer, .. }| answer.energies.viscous_power);
+    let columns = 0..direct[0].scalars.len();
+    let size = |column: usize| direct.iter().map(|moment| moment.scalars[column].abs()).fold(0.0, f64::max);
+    let largest_scalars: Vec<f64> = columns.map(size).collect();
+    for (step, (direct, seen)) in direct.iter().zip(&seen).enumerate() {
+        let (Moment { answer, springs, scalars }, other, others) = (direct, seen.answer, seen.springs);
         let close = |one: f64, what: &str, tolerance: f64| {
             assert!(one <= tolerance, "{what} differs by {one}, allowed {tolerance}, step {step}, {model:?}");
         };
@@ -99,7 +109,9 @@ fn looks_the_same(model: &ContactModel, dance: &Dance, view: &View) {
         close((expected.sliding - others.sliding).norm(), "sliding spring", spring);
         close((expected.rolling - others.rolling).norm(), "rolling spring", spring);
         close((expected.torsion - others.torsion).abs(), "torsion spring", spring);
-        assert_eq!(expected.touched, others.touched);
+        for (index, (one, two)) in scalars.iter().zip(&seen.scalars).enumerate() {
+            close((one - two).abs(), "memory", ROUND_OFF * largest_scalars[index]);
+        }
         let pairs = numbers(&answer.energies).into_iter().zip(numbers(&other.energies));
         for (account, (one, two)) in pairs.enumerate() {
             let tolerance = if account == 10 { power } else { energy };
@@ -153,7 +165,7 @@ pub(super) fn a_common_speed_changes_nothing(model: &ContactModel, dance: &Dance
     let dt = dance.duration / STEPS as f64;
     let boost = draw.vector() * (dance.radius_i / dance.duration);
     let run = |boost: Vector3| -> Performance {
-        let mut contact = contact(model, dance.pair);
+        let mut contact = LiveContact::new(model, dance.pair);
         (0..=STEPS)
             .map(|step| {
                 let [i, j] = dance.step(step, STEPS).map(|body| Kinematics {
@@ -163,14 +175,15 @@ pub(super) fn a_common_speed_changes_nothing(model: &ContactModel, dance: &Dance
                     ..body
                 });
                 let motion = pair_motion(dance.radius_i, &i, Some((dance.radius_j, &j)));
-                (contact.respond(&motion, dt), contact.springs())
+                let answer = contact.respond(&motion, dt);
+                Moment { answer, springs: contact.springs(), scalars: contact.scalars() }
             })
             .collect()
     };
     let (resting, moving) = (run(Vector3::zero()), run(boost));
-    let scale = resting.iter().map(|(answer, _)| answer.force.norm()).fold(1e-290, f64::max);
-    for ((one, _), (other, _)) in resting.iter().zip(&moving) {
-        let difference = (one.force - other.force).norm();
+    let scale = resting.iter().map(|moment| moment.answer.force.norm()).fold(1e-290, f64::max);
+    for (one, other) in resting.iter().zip(&moving) {
+        let difference = (one.answer.force - other.answer.force).norm();
         assert!(difference <= ROUND_OFF * scale, "{difference} N of {scale} N, {model:?}");
     }
 }
@@ -181,7 +194,7 @@ pub(super) fn momentum_is_only_exchanged(model: &ContactModel, dance: &Dance) {
         return;
     }
     let performance = perform(model, dance, &as_it_is());
-    for (step, (answer, _)) in performance.iter().enumerate() {
+    for (step, Moment { answer, .. }) in performance.iter().enumerate() {
         let [i, j] = dance.step(step, STEPS);
         let between = i.position - j.position;
         // The force on j is −force, so that the total torque about any point is this.
@@ -193,8 +206,8 @@ pub(super) fn momentum_is_only_exchanged(model: &ContactModel, dance: &Dance) {
 
 pub(super) fn losses_are_losses(model: &ContactModel, dance: &Dance) {
     let performance = perform(model, dance, &as_it_is());
-    let scale = performance.iter().map(|(answer, _)| answer.energies.elastic_normal).fold(1e-290, f64::max);
-    for (answer, _) in &performance {
+    let scale = performance.iter().map(|moment| moment.answer.energies.elastic_normal).fold(1e-290, f64::max);
+    for Moment { answer, .. } in &performance {
         let e = &answer.energies;
         assert!(e.viscous_power >= 0.0, "{e:?}, {model:?}");
         assert!(e.dissipated_plastic >= -1e-12 * scale, "{e:?}, {model:?}");

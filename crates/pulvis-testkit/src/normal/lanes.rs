@@ -1,8 +1,9 @@
 //! One text of the law serves a number and eight numbers.
 
-use pulvis_contact::{Memory, NormalLaw, NormalResponse, Pair};
+use pulvis_contact::{Memory, NormalLaw, NormalMotion, Pair};
 use pulvis_math::{F64Array, Real};
 
+use super::{bits, columns};
 use crate::draw::Draw;
 use crate::parameters::random_pair;
 
@@ -13,40 +14,45 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number<N: NormalLaw>(law: N, draw
     let lanes = Pair::<Eight>::from_fn(|lane| pairs[lane]);
     let mut memories = [<N::Memory<f64>>::default(); 8];
     let mut memory = <N::Memory<Eight>>::default();
-    let interaction_range = draw.log_between(1e-4, 0.3);
+    let mut overlaps = [0.0; 8];
+    let relative_span = draw.log_between(1e-4, 0.3);
+    let spans: Vec<(f64, f64)> = pairs
+        .iter()
+        .map(|pair| {
+            let range = law.interaction_range(pair);
+            // Laws that act at a distance half the time near there.
+            let near = range > 0.0 && draw.chance(0.5);
+            (-1.3 * range, if near { 3.0 * range } else { pair.harmonic_radius() * relative_span })
+        })
+        .collect();
     for _ in 0..40 {
-        let overlaps: Vec<f64> = pairs
-            .iter()
-            .map(|pair| {
-                if draw.chance(0.1) { 0.0 } else { pair.harmonic_radius() * interaction_range * draw.unit() }
-            })
-            .collect();
-        let answer = law.respond(&lanes, Eight::from_fn(|lane| overlaps[lane]), &mut memory);
+        let growths: [f64; 8] = std::array::from_fn(|lane| {
+            let (least, most) = spans[lane];
+            let before = overlaps[lane];
+            overlaps[lane] = if draw.chance(0.1) { 0.0 } else { draw.between(least, most) };
+            overlaps[lane] - before
+        });
+        let closing_rate = draw.between(-1.0, 1.0);
+        let motion = NormalMotion {
+            closing_rate: Eight::splat(closing_rate),
+            growth: F64Array(growths),
+            time_step: 1e-6,
+            ..NormalMotion::at_rest(&lanes, F64Array(overlaps))
+        };
+        let answer = law.respond(&motion, &mut memory);
         for lane in 0..8 {
-            let plain = law.respond(&pairs[lane], overlaps[lane], &mut memories[lane]);
+            let motion = NormalMotion {
+                closing_rate,
+                growth: growths[lane],
+                time_step: 1e-6,
+                ..NormalMotion::at_rest(&pairs[lane], overlaps[lane])
+            };
+            let plain = law.respond(&motion, &mut memories[lane]);
             let mut of_lane = vec![0.0; <N::Memory<f64> as Memory<f64>>::COLUMNS];
             memory.store(|index, value: Eight| of_lane[index] = value.lane(lane));
-            let bits = |numbers: Vec<f64>| numbers.into_iter().map(f64::to_bits).collect::<Vec<_>>();
-            assert_eq!(bits(of_lane), bits(super::columns(&memories[lane])), "{law:?}: memory");
-            assert_eq!(numbers(&answer, lane), numbers(&plain, 0), "{law:?}: {plain:?}");
-            assert_eq!(
-                law.dashpot(&lanes).lane(lane).to_bits(),
-                law.dashpot(&pairs[lane]).to_bits(),
-                "{law:?}: dashpot"
-            );
+            let memory_bits = |numbers: Vec<f64>| numbers.into_iter().map(f64::to_bits).collect::<Vec<_>>();
+            assert_eq!(memory_bits(of_lane), memory_bits(columns(&memories[lane])), "{law:?}: memory");
+            assert_eq!(bits(&answer, lane), bits(&plain, 0), "{law:?}: {plain:?}");
         }
     }
-}
-
-fn numbers<R: Real>(answer: &NormalResponse<R>, lane: usize) -> [u64; 7] {
-    [
-        answer.force,
-        answer.friction_reference,
-        answer.hardening,
-        answer.inverse_overlap_scale,
-        answer.stored_energy,
-        answer.dissipated_plastic,
-        answer.dissipated_adhesive,
-    ]
-    .map(|number| number.lane(lane).to_bits())
 }
