@@ -142,9 +142,12 @@ impl Bench {
         let mut plain = vec![self.virgin(); 8];
         let mut memory = vec![Eight::zero(); self.virgin().len()];
         for _ in 0..40 {
-            let overlaps: [f64; 8] = std::array::from_fn(|_| {
-                if draw.chance(0.1) { 0.0 } else { self.span * draw.between(-1.3, 1.0) }
-            });
+            let overlaps: [f64; 8] =
+                std::array::from_fn(
+                    |_| {
+                        if draw.chance(0.1) { 0.0 } else { self.span * draw.between(-1.3, 1.0) }
+                    },
+                );
             let answer = law.respond(&NormalMotion::at_rest(&lanes, F64Array(overlaps)), &mut memory[..], 0);
             for lane in 0..8 {
                 let motion = NormalMotion::at_rest(&pairs[lane], overlaps[lane]);

@@ -26,7 +26,8 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number(model: &ContactModel, draw
     let mut inlined_memory = memory.clone();
     let mut memories = vec![vec![0.0; columns]; 8];
     for step in 0..=STEPS {
-        let motions: Vec<_> = dances.iter().enumerate().map(|(lane, dance)| motion(dance, step, lane)).collect();
+        let motions: Vec<_> =
+            dances.iter().enumerate().map(|(lane, dance)| motion(dance, step, lane)).collect();
         let kinematics = gathered(&motions);
         let together = model.respond(&pairs, &kinematics, dt, &mut memory);
         let inputs = ContactInputs { pair: &pairs, motion: &kinematics, time_step: dt };

@@ -90,8 +90,10 @@ fn looks_the_same(model: &ContactModel, dance: &Dance, view: &View) {
     let largest = |size: Size| ROUND_OFF * direct.iter().map(size).fold(1e-290, f64::max);
     let force = largest(&|Moment { answer, .. }| answer.force.norm());
     let torque = largest(&|Moment { answer, .. }| answer.torque_i.norm().max(answer.torque_j.norm()));
-    let spring = largest(&|Moment { springs: s, .. }| s.sliding.norm().max(s.rolling.norm()).max(s.torsion.abs()));
-    let energy = largest(&|Moment { answer, .. }| numbers(&answer.energies)[..10].iter().map(|e| e.abs()).sum());
+    let spring =
+        largest(&|Moment { springs: s, .. }| s.sliding.norm().max(s.rolling.norm()).max(s.torsion.abs()));
+    let energy =
+        largest(&|Moment { answer, .. }| numbers(&answer.energies)[..10].iter().map(|e| e.abs()).sum());
     let power = largest(&|Moment { answer, .. }| answer.energies.viscous_power);
     let columns = 0..direct[0].scalars.len();
     let size = |column: usize| direct.iter().map(|moment| moment.scalars[column].abs()).fold(0.0, f64::max);

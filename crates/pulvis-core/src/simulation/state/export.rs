@@ -32,6 +32,7 @@ impl Simulation {
             // Decide the speed only.
             pool: _,
             instructions: _,
+            pointers: _,
             phases: _,
             accounting,
             // Follow from the particles.

@@ -63,7 +63,7 @@ impl Simulation {
         self.skin.renew_walls(&self.walls);
         (self.chooses_skin, self.mean_radius) = (list.chooses_skin, list.mean_radius);
         self.check_periods()?;
-        let (grid, order) = CellGrid::sort(&self.domain, &unsorted, self.interactions.interaction_range());
+        let (grid, order) = CellGrid::sort(&self.domain, &unsorted, self.interactions.longest_range());
         if order != list.former_row {
             return Err(StateError::List { problem: "its particles come in another order".to_owned() });
         }
