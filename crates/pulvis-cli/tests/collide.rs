@@ -89,6 +89,17 @@ fn bad_input_ends_with_exit_code_2_and_says_where() {
         (vec!["collide", EXPERIMENT, "--set", "contact.normal.kc=-1 N/m"], "contact.normal.kc"),
         (vec!["collide", EXPERIMENT, "--set", "contact.normal.phif=0.1"], "did you mean `phi_f`?"),
         (vec!["collide", EXPERIMENT, "--set", "nonsense"], "expected KEY=VALUE"),
+        (
+            vec![
+                "collide",
+                EXPERIMENT,
+                "--set",
+                "contact.normal.kc=1 N/m",
+                "--set",
+                "contact.normal.kc=2 N/m",
+            ],
+            "contact.normal.kc: the key is set twice from outside the file; expected each key once",
+        ),
         (vec!["collide", EXPERIMENT, "--plot", "e.pdf"], "choose one of: png, svg"),
         (vec!["collide", EXPERIMENT, "--format", "xml"], "xml"),
         (vec!["collide"], "FILE"),

@@ -7,7 +7,7 @@ use common::*;
 use pulvis_contact::NonContact;
 use pulvis_contact::noncontact::Reversible;
 use pulvis_core::walls::{PressureRamp, Servo, Wall, WallMotion};
-use pulvis_core::{Domain, Interactions, Setup, SetupError, Simulation, StepError};
+use pulvis_core::{Domain, Interactions, Particle, Setup, SetupError, Simulation, StepError};
 use pulvis_math::Vector3;
 
 fn one() -> Setup {
@@ -22,7 +22,10 @@ fn refused(setup: Setup) -> SetupError {
 #[test]
 fn materials_without_a_contact_model_are_named() {
     let mut strange = one();
+    let second = sphere(vector(5.0 * RADIUS, RADIUS, RADIUS), Vector3::zero(), RADIUS);
+    strange.particles.push(second);
     strange.particles[0].material = 3;
+    strange.particles[1].material = 3;
     assert_eq!(refused(strange), SetupError::NoModel { one: 3, other: 3 });
     let mut at_wall = one();
     at_wall.walls = vec![Wall { material: 2, ..floor() }];
@@ -30,8 +33,29 @@ fn materials_without_a_contact_model_are_named() {
 }
 
 #[test]
+fn a_single_particle_of_its_material_needs_no_model_for_a_contact_with_its_like() {
+    let mut interactions = Interactions::new(2);
+    interactions.set(0, 1, elastic());
+    let (resting, floor) = (one().particles[0], Wall { material: 1, ..floor() });
+    let falling = |position| Particle { position, velocity: vector(0.0, 0.0, -0.1), ..resting };
+    let alone = Setup { interactions: interactions.clone(), walls: vec![floor.clone()], ..one() };
+    let mut simulation =
+        Simulation::new(Setup { particles: vec![falling(vector(0.0, 0.0, 1.1 * RADIUS))], ..alone }).unwrap();
+    let bounces = (0..200_000).any(|_| {
+        advance(&mut simulation, 1);
+        simulation.particles().velocities()[0].z > 0.05
+    });
+    assert!(bounces, "{:?}", simulation.particles().velocities()[0]);
+    // What stages change may not take the model of the wall away.
+    let error = simulation.set_interactions(Interactions::new(2)).unwrap_err();
+    assert_eq!(error, SetupError::NoModel { one: 0, other: 1 });
+}
+
+#[test]
 fn new_models_that_leave_a_pair_without_one_are_refused_and_the_old_ones_stay() {
-    let mut simulation = Simulation::new(one()).unwrap();
+    let second = sphere(vector(5.0 * RADIUS, RADIUS, RADIUS), Vector3::zero(), RADIUS);
+    let particles = vec![one().particles[0], second];
+    let mut simulation = Simulation::new(Setup { particles, ..one() }).unwrap();
     let error = simulation.set_interactions(Interactions::new(1)).unwrap_err();
     assert_eq!(error, SetupError::NoModel { one: 0, other: 0 });
     advance(&mut simulation, 3);

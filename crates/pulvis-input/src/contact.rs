@@ -5,7 +5,6 @@ use crate::material::MaterialProperties;
 use crate::parameters::{read_parameters, refuse_parameter};
 use crate::problem::Problem;
 use crate::reader::TableReader;
-use crate::shape::Name;
 use pulvis_contact::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Role, Value, Values};
 use pulvis_contact::{
     ContactLaws, ContactModel, Conventions, ExpectedLoading, NonContact, Normal, Viscosity, friction,
@@ -112,7 +111,7 @@ fn read_law<L>(
         let law = law.map_err(|error| refuse_parameter(contact, error))?;
         return Ok((law, NamedLaw { role, name: none.name, values }));
     };
-    let name = table.required("law", Name(&names))?;
+    let name = table.selector("law", &names)?;
     let unknown = |table: &TableReader<'_>| table.refuse("law", Problem::unknown_choice(name, &names));
     let entry = entries.iter().find(|entry| entry.name == name).ok_or_else(|| unknown(&table))?;
     let law = read_parameters(&mut table, entry.parameters).and_then(|mut values| {

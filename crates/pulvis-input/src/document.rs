@@ -9,7 +9,7 @@ use crate::reader::TableReader;
 use crate::setting::set;
 use crate::source::Source;
 use crate::syntax::syntax_errors;
-use crate::value::Table;
+use crate::value::{Node, Table, Value, join_path, split_path};
 use std::path::Path;
 use std::sync::Arc;
 use toml::de::DeTable;
@@ -45,7 +45,8 @@ impl Document {
         }
         let root = Table::from_toml(table.get_ref());
         if root.entries.is_empty() {
-            return Err(InputError::of_file(&source.name, Problem::Empty).into());
+            let place = Some(source.place(&(0..0)));
+            return Err(InputError { place, ..InputError::of_file(&source.name, Problem::Empty) }.into());
         }
         Ok(Self { source: Arc::new(source), root })
     }
@@ -99,6 +100,33 @@ impl Document {
         Ok(Self { source: Arc::clone(&self.source), root })
     }
 
+    /// The same file with several values replaced, as the command line does it.
+    ///
+    /// # Errors
+    /// As of [`Self::with_override`], or a key stands in `set` twice: nobody knows which value is meant.
+    pub fn with_overrides(&self, set: &[(String, Replacement)]) -> Result<Self, InputErrors> {
+        let mut document = self.clone();
+        let mut paths = Vec::with_capacity(set.len());
+        for (path, value) in set {
+            document = document.with_override(path, value.clone())?;
+            // `a."b"` is the same path as `a.b`.
+            let steps = split_path(path);
+            if paths.contains(&steps) {
+                let problem = Problem::rule("the key is set twice from outside the file", "each key once");
+                return Err(InputError { help: None, ..self.mistake(path, problem, "") }.into());
+            }
+            paths.push(steps);
+        }
+        Ok(document)
+    }
+
+    /// The dotted paths of all values that were set from outside the file.
+    pub(crate) fn replaced(&self) -> Vec<String> {
+        let mut paths = Vec::new();
+        collect_replaced(&self.root, "", &mut paths);
+        paths
+    }
+
     /// The same file with a value or table set, whether it was there before or not, as a stage does it.
     ///
     /// Tables on the way are made. Setting a key called `law` drops the neighbours that the new law does
@@ -107,5 +135,24 @@ impl Document {
         let mut root = self.root.clone();
         set(&mut root, path, value)?;
         Ok(Self { source: Arc::clone(&self.source), root })
+    }
+}
+
+fn collect_replaced(table: &Table, parent: &str, paths: &mut Vec<String>) {
+    for (key, entry) in table.in_order() {
+        collect_replaced_below(&entry.node, join_path(parent, key), paths);
+    }
+}
+
+fn collect_replaced_below(node: &Node, path: String, paths: &mut Vec<String>) {
+    match &node.value {
+        _ if node.replaced => paths.push(path),
+        Value::Table(table) => collect_replaced(table, &path, paths),
+        Value::List(items) => {
+            for (index, item) in items.iter().enumerate() {
+                collect_replaced_below(item, format!("{path}[{index}]"), paths);
+            }
+        }
+        _ => {}
     }
 }

@@ -15,7 +15,7 @@ impl Document {
         InputError {
             place: span.map(|span| self.parts().0.place(&span)),
             key,
-            help: Some(help.into()),
+            help: Some(help.into()).filter(|help| !help.is_empty()),
             ..InputError::of_file(self.name(), problem)
         }
     }

@@ -116,11 +116,11 @@ mod tests {
         assert_eq!(
             lines,
             [
-                "1:1: missing `k1`; expected a stiffness [N/m] greater than 0",
                 "1:6: kc: \"-1 N/m\" is out of range; expected a stiffness [N/m] of at least 0",
                 "3:9: phi_f: 1.5 is out of range; expected a pure number greater than 0 and at most 1",
                 "4:17: interpolation: found \"cubic\"; expected \"linear\" or \"square-root\"",
                 "5:1: kp: unknown key",
+                "1:1: missing `k1`; expected a stiffness [N/m] greater than 0",
             ]
         );
     }

@@ -35,7 +35,7 @@ pub enum Problem {
         byte: u8,
     },
     /// Nothing but blanks and comments.
-    #[error("the file has no keys; expected a scenario")]
+    #[error("the file has no keys; expected a scenario, which begins for example with [materials.grain]")]
     Empty,
     /// Text that is no TOML.
     #[error("this is no valid TOML: {message}")]
@@ -151,11 +151,22 @@ pub(crate) fn one_of(choices: &[String]) -> String {
     }
 }
 
+/// A text as a message echoes it: not more than `most` characters.
+pub(crate) fn shortened(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.to_owned();
+    }
+    text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
+}
+
+/// The longest value that a message echoes in full.
+pub(crate) const LONGEST_VALUE: usize = 60;
+
 impl Problem {
     /// A name that is none of the choices.
     pub fn unknown_choice(found: &str, choices: &[&str]) -> Self {
         Self::UnknownChoice {
-            found: found.to_owned(),
+            found: shortened(found, LONGEST_VALUE),
             choices: choices.iter().map(|&choice| choice.to_owned()).collect(),
             similar: similar(found, choices.iter().copied()).map(str::to_owned),
         }

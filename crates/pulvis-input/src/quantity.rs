@@ -1,7 +1,7 @@
 //! Quantities as text: a number with its unit, `"1.1 mm"`, checked and turned into SI.
 
 use crate::decimal::{split_number, split_special};
-use crate::problem::or_similar;
+use crate::problem::{LONGEST_VALUE, or_similar, shortened};
 use crate::rule::{describe, with_article};
 use crate::unit::{Unit, UnitError};
 
@@ -51,12 +51,12 @@ pub enum QuantityError {
 /// # Errors
 /// [`QuantityError`] tells what was found, what was expected and how to write it.
 pub fn parse_quantity(text: &str, rule: impl Into<QuantityRule>) -> Result<f64, QuantityError> {
-    read(text, &format!("\"{text}\""), rule.into())
+    read(text, &format!("\"{}\"", shortened(text, LONGEST_VALUE)), rule.into())
 }
 
 /// Reads a number of the file that stands without quotes.
 pub(crate) fn parse_bare(text: &str, rule: QuantityRule) -> Result<f64, QuantityError> {
-    read(text, text, rule)
+    read(text, &shortened(text, LONGEST_VALUE), rule)
 }
 
 /// Checks a value that is already in SI, for example one of a sweep.

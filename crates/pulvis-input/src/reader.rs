@@ -2,11 +2,14 @@
 
 use crate::context::{Context, Location, Reported};
 use crate::problem::Problem;
-use crate::shape::Shape;
+use crate::shape::{Name, Shape};
 use crate::similar::similar;
 use crate::value::{Table, join_path};
 use crate::value_reader::ValueReader;
 use std::ops::Range;
+
+/// The words under which scenario files name a choice that decides what else belongs into a table.
+const SELECTORS: [&str; 6] = ["kind", "shape", "type", "law", "distribution", "control"];
 
 /// A table being read. It remembers the keys that were asked for; [`Self::finish`] refuses the others.
 pub struct TableReader<'d> {
@@ -57,6 +60,42 @@ impl<'d> TableReader<'d> {
     /// It is of another shape; that has been reported.
     pub fn or<S: Shape>(&mut self, key: &str, shape: S, default: S::Output) -> Result<S::Output, Reported> {
         Ok(self.optional(key, shape)?.unwrap_or(default))
+    }
+
+    /// The name that decides which other keys belong into this table, for example `kind = "lattice"`.
+    ///
+    /// # Errors
+    /// It is missing, none of `names`, or stands under another word; that has been reported with all the
+    /// names. The caller should then leave the table: nobody knows which other keys belong into it.
+    pub fn selector<'n>(&mut self, key: &str, names: &'n [&'n str]) -> Result<&'n str, Reported> {
+        self.check_selector_word(key, names)?;
+        self.required(key, Name(names))
+    }
+
+    /// As [`Self::selector`], with a name that holds where none is given.
+    ///
+    /// # Errors
+    /// It is none of `names`, or stands under another word.
+    pub fn selector_or<'n>(
+        &mut self,
+        key: &str,
+        names: &'n [&'n str],
+        default: &'n str,
+    ) -> Result<&'n str, Reported> {
+        self.check_selector_word(key, names)?;
+        self.or(key, Name(names), default)
+    }
+
+    /// Refuses `kind = "lattice"` where the key is called otherwise.
+    fn check_selector_word(&self, key: &str, names: &[&str]) -> Result<(), Reported> {
+        let entries = &self.table.entries;
+        let found = SELECTORS.iter().find_map(|&word| Some((word, entries.get(word)?)));
+        let Some((word, entry)) = found.filter(|_| !entries.contains_key(key)) else { return Ok(()) };
+        let path = join_path(&self.location.path, word);
+        let location = Location { span: entry.key_span.clone(), path, replaced: false };
+        let problem = Problem::UnknownKey { similar: Some(key.to_owned()) };
+        let help = format!("`{key}` is {}", Name(names).describe());
+        Err(self.context.report(&location, problem, Some(help)))
     }
 
     /// A table inside this one that must be there.

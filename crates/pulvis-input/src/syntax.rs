@@ -1,7 +1,7 @@
 //! Syntax errors of TOML, with advice for the slips that scenario files invite.
 
 use crate::error::{InputError, Place};
-use crate::problem::Problem;
+use crate::problem::{LONGEST_VALUE, Problem, shortened};
 use crate::source::Source;
 
 /// The first syntax error, and every key or table that stands there twice.
@@ -24,7 +24,9 @@ fn syntax_error(source: &Source, error: &toml::de::Error) -> InputError {
     let span = error.span().unwrap_or(end..end);
     let place = source.place(&span);
     let problem = match error.message() {
-        DUPLICATE => Problem::Duplicate { key: source.text.get(span).unwrap_or_default().to_owned() },
+        DUPLICATE => {
+            Problem::Duplicate { key: shortened(source.text.get(span).unwrap_or_default(), LONGEST_VALUE) }
+        }
         message => Problem::Syntax { message: message.to_owned() },
     };
     let help = match problem {
@@ -40,6 +42,7 @@ fn advice(source: &Source, place: &Place) -> Option<String> {
         let number = value.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'));
         if number && value.contains(char::is_alphabetic) && !value.contains('"') {
             let key = key.trim();
+            let value = shortened(value, LONGEST_VALUE);
             return Some(format!("a quantity with its unit stands in quotes: {key} = \"{value}\""));
         }
     }

@@ -1,5 +1,6 @@
 //! Units as text: `kg/m^3`, `kN/m`, `rad/s`, `g/cm3`.
 
+use crate::problem::{LONGEST_VALUE, shortened};
 use pulvis_math::{Dimension, elementary};
 use thiserror::Error;
 
@@ -131,17 +132,18 @@ impl Unit {
                 factors.try_for_each(|factor| unit.multiply(factor, 1, &mut exponents))?;
                 continue;
             }
-            let below =
-                factors.next().ok_or_else(|| UnitError::NothingAfterSlash { unit: text.to_owned() })?;
+            let below = factors
+                .next()
+                .ok_or_else(|| UnitError::NothingAfterSlash { unit: shortened(text, LONGEST_VALUE) })?;
             if factors.next().is_some() {
-                return Err(UnitError::ProductAfterSlash { unit: text.trim().to_owned() });
+                return Err(UnitError::ProductAfterSlash { unit: shortened(text.trim(), LONGEST_VALUE) });
             }
             unit.multiply(below, -1, &mut exponents)?;
         }
         let [mass, length, time] = exponents.map(|exponent| i8::try_from(exponent).ok());
         match (mass, length, time) {
             (Some(mass), Some(length), Some(time)) => unit.dimension = Dimension::new(mass, length, time),
-            _ => return Err(UnitError::Exponent { factor: text.to_owned() }),
+            _ => return Err(UnitError::Exponent { factor: shortened(text, LONGEST_VALUE) }),
         }
         Ok(unit)
     }
@@ -174,15 +176,17 @@ fn read_factor(factor: &str) -> Result<(Unit, i32), UnitError> {
     let is_exponent = |c: char| c.is_ascii_digit() || matches!(c, '^' | '+' | '-' | '⁻' | '²' | '³' | '¹');
     let split = factor.find(is_exponent).unwrap_or(factor.len());
     let (symbol, exponent) = factor.split_at(split);
-    let unit = look_up(symbol)
-        .ok_or_else(|| UnitError::Unknown { symbol: factor.to_owned(), similar: suggest(symbol) })?;
+    let unit = look_up(symbol).ok_or_else(|| UnitError::Unknown {
+        symbol: shortened(factor, LONGEST_VALUE),
+        similar: suggest(symbol),
+    })?;
     if exponent.is_empty() {
         return Ok((unit, 1));
     }
     let digits: String = exponent.strip_prefix('^').unwrap_or(exponent).chars().map(lower_digit).collect();
     match digits.parse::<i32>() {
         Ok(exponent) if exponent.abs() <= LARGEST_EXPONENT => Ok((unit, exponent)),
-        _ => Err(UnitError::Exponent { factor: factor.to_owned() }),
+        _ => Err(UnitError::Exponent { factor: shortened(factor, LONGEST_VALUE) }),
     }
 }
 

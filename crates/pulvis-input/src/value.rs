@@ -1,5 +1,6 @@
 //! The tree of a TOML file: every key and value with its place.
 
+use crate::problem::{LONGEST_VALUE, shortened};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::{DeInteger, DeTable, DeValue};
@@ -79,8 +80,10 @@ impl Node {
     /// What stands here, as an error names it: texts in quotes, numbers bare.
     pub(crate) fn found(&self) -> String {
         match &self.value {
-            Value::Text(text) => format!("the text \"{text}\""),
-            Value::Integer(digits) | Value::Number(digits) => format!("the number {digits}"),
+            Value::Text(text) => format!("the text \"{}\"", shortened(text, LONGEST_VALUE)),
+            Value::Integer(digits) | Value::Number(digits) => {
+                format!("the number {}", shortened(digits, LONGEST_VALUE))
+            }
             Value::Si(value) => format!("the number {value}"),
             Value::Boolean(boolean) => boolean.to_string(),
             Value::Date(date) => format!("the date {date}"),

@@ -1,8 +1,8 @@
 //! Every file in `tests/bad` ends with the messages that it must cause.
 //!
 //! A line `#^ 3:10: contact.normal.kp: ...` is the first line of one message without `error: <file>:`;
-//! several mistakes are several such lines, in the order of the file. Changing a message shows up in
-//! review. Files `collision_*` are scenarios of pair collisions, all others of runs.
+//! several mistakes are several such lines, in the order of the file, missing keys after the unknown ones of
+//! their table. Changing a message shows up in review. Files `collision_*` are scenarios of pair collisions, all others of runs.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pulvis_contact::{Normal, Viscosity};
-use pulvis_input::Scenario;
 use pulvis_input::scenario::*;
+use pulvis_input::{Replacement, Scenario};
 use std::path::{Path, PathBuf};
 
 fn folder() -> PathBuf {
@@ -163,4 +163,45 @@ fn positions_come_from_files_beside_the_scenario() {
     assert_eq!((grains.len(), grains[1].radius, grains[1].velocity.unwrap().z), (2, Some(1.5e-4), -1.0));
     assert_eq!((&scenario.particles[0].radius, scenario.particles[0].count), (&None, 2));
     assert!(scenario.particles[1].radius.is_some());
+}
+
+#[test]
+fn a_single_particle_needs_no_contact_with_its_like_and_may_have_one() {
+    let bad = folder().with_file_name("bad").join("two_particles_meet.toml");
+    let text = std::fs::read_to_string(bad).unwrap();
+    let alone = text.replace(r#", ["1 mm", "2 mm", "1 mm"]"#, "");
+    assert_ne!(text, alone);
+    assert_eq!(Scenario::from_str("alone.toml", &alone).unwrap().contacts.len(), 1);
+    let given = format!("{alone}\n[contacts.grain-grain.normal]\nlaw = \"linear\"\nk = \"1 N/m\"\n");
+    assert_eq!(Scenario::from_str("given.toml", &given).unwrap().contacts.len(), 2);
+    // A wall of its own material is something to meet.
+    let at_wall = alone.replace(r#"material = "plate""#, r#"material = "grain""#);
+    let error = Scenario::from_str("wall.toml", &at_wall).unwrap_err().to_string();
+    assert!(error.contains("missing `contacts.grain-grain`"), "{error}");
+}
+
+#[test]
+fn values_are_set_from_outside_once_each_and_late_mistakes_blame_the_outside() {
+    let path = folder().join("minimal.toml");
+    let set = |pairs: &[(&str, &str)]| {
+        let pair = |(key, text): &(&str, &str)| ((*key).to_owned(), Replacement::parse(text));
+        Scenario::load_with(&path, &pairs.iter().map(pair).collect::<Vec<_>>())
+    };
+    let scenario = set(&[("stages[0].until.time", "3 s")]).unwrap();
+    assert_eq!(scenario.stages[0].until.time, Some(3.0));
+    assert!(
+        scenario
+            .to_resolved_toml("1")
+            .contains("# with values set from outside the file: stages[0].until.time\n")
+    );
+    let problem = || pulvis_input::Problem::rule("too long", "less");
+    assert!(scenario.mistake(&["stages[0].until.time"], problem(), "").replaced);
+    assert!(!scenario.mistake(&["stages[0].name"], problem(), "").replaced);
+    let twice = set(&[("stages[0].until.time", "3 s"), ("stages[0].\"until\".time", "4 s")]).unwrap_err();
+    assert!(
+        twice.errors()[0].headline().ends_with(
+            "stages[0].until.time: the key is set twice from outside the file; expected each key once"
+        ),
+        "{twice}"
+    );
 }

@@ -27,17 +27,22 @@ impl Lattice {
 
     /// The sites without their displacements, x fastest and z slowest: lower + (i + 1/2) spacing [m].
     pub fn sites(&self) -> impl Iterator<Item = Vector3> + '_ {
-        (0..self.site_count()).map(|number| self.site(number, || 0.0))
+        (0..self.site_count()).map(|number| self.site(number))
+    }
+
+    /// The site of this number without its displacement [m].
+    pub fn site(&self, number: usize) -> Vector3 {
+        self.displaced_site(number, || 0.0)
     }
 
     /// One position at each site, randomly displaced, in the order of the sites [m].
     pub fn positions(&self, random: &mut Random) -> Vec<Vector3> {
         let mut displacement = || self.jitter * (2.0 * random.random::<f64>() - 1.0);
-        (0..self.site_count()).map(|number| self.site(number, &mut displacement)).collect()
+        (0..self.site_count()).map(|number| self.displaced_site(number, &mut displacement)).collect()
     }
 
     /// A site [m], moved along each axis by a fraction of the spacing.
-    fn site(&self, number: usize, mut displacement: impl FnMut() -> f64) -> Vector3 {
+    fn displaced_site(&self, number: usize, mut displacement: impl FnMut() -> f64) -> Vector3 {
         let [along_x, along_y, _] = self.counts;
         let cell = [number % along_x, number / along_x % along_y, number / (along_x * along_y)];
         // A lattice of more than 2^53 cells along an axis does not fit into any memory.

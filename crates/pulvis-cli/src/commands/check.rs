@@ -1,29 +1,72 @@
 //! `pulvis check`: a scenario before it runs.
 
 use std::fmt::Write;
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 use pulvis_contact::theory::CriticalVelocities;
 use pulvis_input::scenario::Scenario;
-use pulvis_lab::protocol::{ContactForecast, Preflight, preflight};
+use pulvis_lab::protocol::{ContactForecast, Preflight, StageForecast, Sticking, memory_forecast, preflight};
 
+use super::set::Settings;
 use super::words::{bytes, duration};
 use crate::failure::{Failure, print};
 
-/// Checks a scenario and says what the run will be like, without running it.
+/// With more particles, a check takes seconds: the memory is told at once.
+const MANY: usize = 1_000_000;
+
+/// Checks scenarios and says what their runs will be like, without running them.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Scenario file (TOML)
-    file: PathBuf,
+    /// Scenario files (TOML)
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    set: Settings,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let scenario = Scenario::load(&arguments.file).map_err(Failure::bad_input)?;
+    let mut refused = Vec::new();
+    for (number, file) in arguments.files.iter().enumerate() {
+        match check(file, arguments) {
+            Ok(text) if number == 0 => print(&text)?,
+            Ok(text) => print(&format!("\n{text}"))?,
+            Err(failure) => refused.push(failure),
+        }
+    }
+    // All files are looked at before any is to blame.
+    let Some(last) = refused.pop() else { return Ok(ExitCode::SUCCESS) };
+    for failure in &refused {
+        failure.report();
+    }
+    Err(last)
+}
+
+fn check(file: &PathBuf, arguments: &Arguments) -> Result<String, Failure> {
+    let scenario = Scenario::load_with(file, &arguments.set.pairs).map_err(Failure::bad_input)?;
+    tell_memory_of_many(&scenario);
     let forecast = preflight(&scenario).map_err(Failure::bad_input)?;
-    print(&describe(&scenario, &forecast))?;
-    Ok(ExitCode::SUCCESS)
+    Ok(describe(&scenario, &forecast))
+}
+
+/// Tells what very many particles need before they are made, which takes its time.
+fn tell_memory_of_many(scenario: &Scenario) {
+    let count = scenario.particle_count();
+    let Some(memory) = Some(count).filter(|&count| count > MANY).and_then(|_| memory_forecast(scenario))
+    else {
+        return;
+    };
+    let available =
+        memory.available.map_or(String::new(), |available| format!("; {} are available", bytes(available)));
+    // Nobody is left to be told if the standard error stream is closed.
+    let _ = writeln!(
+        std::io::stderr(),
+        "{count} particles need about {} at the start and {} in a dense packing{available}",
+        bytes(memory.start),
+        bytes(memory.packed)
+    );
 }
 
 // Writing to a String cannot fail.
@@ -42,52 +85,97 @@ fn describe(scenario: &Scenario, forecast: &Preflight) -> String {
         describe_contact(&mut text, contact);
     }
     for (number, stage) in forecast.stages.iter().enumerate() {
-        let limit = if stage.open_ended { "at most " } else { "" };
-        let steps =
-            stage.steps.map_or("until its rule holds".to_owned(), |steps| format!("{limit}{steps} steps"));
-        let shortest = stage
-            .shortest
-            .as_ref()
-            .map_or(String::new(), |(time, between)| format!(", shortest contact {time:.4e} s ({between})"));
         let heading = if number == 0 { "stages" } else { "" };
-        let _ = writeln!(
-            text,
-            "{heading:<17} {}: time step {:.4e} s, {steps}{shortest}",
-            stage.name, stage.time_step
-        );
+        let _ = writeln!(text, "{heading:<17} {}", describe_stage(stage));
     }
     describe_memory(&mut text, forecast);
-    let seconds = forecast.seconds_per_step;
-    let open = if forecast.stages.iter().any(|stage| stage.steps.is_none()) {
-        ", and stages of open end"
-    } else {
-        ""
-    };
-    let _ = writeln!(
-        text,
-        "time              {} for {} steps at {:.0} steps/s on this machine{open}",
-        duration(seconds * forecast.steps() as f64),
-        forecast.steps(),
-        1.0 / seconds
-    );
-    let _ = writeln!(text, "output            {}", scenario.output.folder.display());
+    let _ = writeln!(text, "time              {}", describe_time(forecast));
+    describe_output(&mut text, scenario, forecast);
+    for warning in &forecast.warnings {
+        let _ = writeln!(text, "warning           {warning}");
+    }
     text
 }
 
+fn describe_stage(stage: &StageForecast) -> String {
+    let limit = if stage.open_ended { "at most " } else { "" };
+    let steps =
+        stage.steps.map_or("until its rule holds".to_owned(), |steps| format!("{limit}{steps} steps"));
+    let shortest = stage
+        .shortest
+        .as_ref()
+        .map_or(String::new(), |(time, between)| format!(", shortest contact {time:.4e} s ({between})"));
+    format!("{}: time step {:.4e} s, {steps}{shortest}", stage.name, stage.time_step)
+}
+
+fn describe_time(forecast: &Preflight) -> String {
+    let [least, most] = forecast.seconds();
+    let rate = |steps: u64, seconds: f64| {
+        let rate = if steps > 0 { steps as f64 / seconds } else { 0.0 };
+        format!("{rate:.0} steps/s on this machine")
+    };
+    let (least_steps, steps) = (forecast.least_steps(), forecast.steps());
+    if !forecast.is_open_ended() {
+        return format!("about {} for {steps} steps at {}", duration(most), rate(steps, most));
+    }
+    let unlimited = forecast.stages.iter().filter(|stage| stage.steps.is_none());
+    let unlimited: Vec<String> = unlimited
+        .map(|stage| {
+            let per_step = stage.seconds_per_step + stage.row_seconds_per_step;
+            format!("{} has no limit, {}", stage.name, rate(1, per_step))
+        })
+        .collect();
+    let known = format!(
+        "{} to {} for {least_steps} to {steps} steps, as the rules of the stages end them",
+        duration(least),
+        duration(most)
+    );
+    match (unlimited.is_empty(), steps) {
+        (true, _) => format!("{known}, at {}", rate(steps, most)),
+        (false, 0) => unlimited.join("; "),
+        (false, _) => format!("{known}; {}", unlimited.join("; ")),
+    }
+}
+
+fn describe_output(text: &mut String, scenario: &Scenario, forecast: &Preflight) {
+    let disk = &forecast.disk;
+    let _ = writeln!(text, "output            {}", scenario.output.folder.display());
+    let limit = if forecast.is_open_ended() { "up to " } else { "about " };
+    let open = if forecast.stages.iter().any(|stage| stage.steps.is_none()) {
+        ", and more in stages without a limit"
+    } else {
+        ""
+    };
+    let free = disk.free.map_or(String::new(), |free| format!("; {} are free", bytes(free)));
+    let _ = writeln!(
+        text,
+        "{:<17} {limit}{}: time series {}, {:.0} frames of {}{open}{free}",
+        "",
+        bytes(disk.total() as u64),
+        bytes(disk.timeseries as u64),
+        disk.frames,
+        bytes(disk.frame as u64)
+    );
+}
+
 fn describe_memory(text: &mut String, forecast: &Preflight) {
-    let of_a_particle = |memory: usize| memory as f64 / forecast.particles.max(1) as f64;
+    let of_a_particle = |memory: u64| memory as f64 / forecast.particles.max(1) as f64;
+    let start = forecast.memory as u64;
     let _ = writeln!(
         text,
         "memory            {} for {} candidate contacts at the start, {:.0} bytes a particle",
-        bytes(forecast.memory),
+        bytes(start),
         forecast.candidates,
-        of_a_particle(forecast.memory)
+        of_a_particle(start)
     );
     // What starts as a packing has its contacts already.
-    if let Some(packed) = forecast.packed_memory.filter(|&packed| packed > forecast.memory) {
+    if let Some(packed) = forecast.packed_memory.filter(|&packed| packed > start) {
+        let available = forecast
+            .available_memory
+            .map_or(String::new(), |available| format!("; {} are available", bytes(available)));
         let _ = writeln!(
             text,
-            "{:<17} {} with the contacts of a dense packing, 12 neighbours each: {:.0} bytes a particle",
+            "{:<17} {} with the contacts of a dense packing, 12 neighbours each: {:.0} bytes a particle{available}",
             "",
             bytes(packed),
             of_a_particle(packed)
@@ -106,12 +194,31 @@ fn walls(scenario: &Scenario) -> String {
 fn describe_contact(text: &mut String, contact: &ContactForecast) {
     let name = format!("contact {}", contact.between);
     let _ = writeln!(text, "{name:<17} law {}, shortest motion {:.4e} s", contact.law, contact.contact_time);
+    let is_damped = !matches!(contact.sticking, Sticking::ClosedForm(_));
     if let Some(velocity) = contact.plastic_velocity.filter(|velocity| velocity.is_finite()) {
-        let _ = writeln!(text, "{:<17} fully plastic above v_p = {velocity:.4e} m/s", "");
+        let without = if is_damped { ", dashpot left out" } else { "" };
+        let _ = writeln!(text, "{:<17} fully plastic above v_p = {velocity:.4e} m/s{without}", "");
     }
-    if let Some(velocities) = &contact.sticking {
-        let _ = writeln!(text, "{:<17} {}", "", sticking(velocities));
+    let _ = match &contact.sticking {
+        Sticking::ClosedForm(velocities) => writeln!(text, "{:<17} {}", "", sticking(velocities)),
+        Sticking::Computed(ranges) => {
+            writeln!(text, "{:<17} {}, head on, by collisions", "", computed_sticking(ranges))
+        }
+        Sticking::Unknown => Ok(()),
+    };
+}
+
+fn computed_sticking(ranges: &[[f64; 2]]) -> String {
+    if ranges.is_empty() {
+        return "pairs never stick".to_owned();
     }
+    let range = |&[low, high]: &[f64; 2]| match (low > 0.0, high.is_finite()) {
+        (true, true) => format!("from {low:.4e} to {high:.4e} m/s"),
+        (false, true) => format!("below {high:.4e} m/s"),
+        (true, false) => format!("above {low:.4e} m/s"),
+        (false, false) => "at all speeds".to_owned(),
+    };
+    format!("sticks {}", ranges.iter().map(range).collect::<Vec<_>>().join(" and "))
 }
 
 fn sticking(velocities: &CriticalVelocities) -> String {

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use pulvis_input::InputErrors;
 use pulvis_input::collision::CollisionScenario;
-use pulvis_input::{InputErrors, Replacement};
 use pulvis_lab::collision::{SweepPoint, figure, result_table, sweep, trajectory_table};
 
+use super::set::Settings;
 use crate::failure::{Failure, print};
 
 /// Significant digits of the table on the screen; CSV and JSON hold all.
@@ -27,27 +28,16 @@ pub struct Arguments {
     /// Draw restitution, force loops and energies
     #[arg(long, value_name = "FILE.png|svg")]
     plot: Option<PathBuf>,
-    /// Replace a value of the scenario, for example contact.normal.kc="50 N/m"
-    #[arg(long, value_name = "KEY=VALUE", value_parser = replacement)]
-    set: Vec<(String, Replacement)>,
+    #[command(flatten)]
+    set: Settings,
     /// Write over trajectories and pictures that exist
     #[arg(long)]
     force: bool,
 }
 
-/// `key=value` of the command line.
-fn replacement(text: &str) -> Result<(String, Replacement), String> {
-    match text.split_once('=') {
-        Some((key, value)) if !key.trim().is_empty() && !value.trim().is_empty() => {
-            Ok((key.trim().to_owned(), Replacement::parse(value)))
-        }
-        _ => Err("expected KEY=VALUE, for example contact.normal.kc=\"50 N/m\"".to_owned()),
-    }
-}
-
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let bad_scenario = |errors: InputErrors| Failure::bad_input(errors);
-    let scenario = CollisionScenario::load(&arguments.file, &arguments.set).map_err(bad_scenario)?;
+    let scenario = CollisionScenario::load(&arguments.file, &arguments.set.pairs).map_err(bad_scenario)?;
     // Before anything is computed: nobody likes to hear afterwards that there is no place for it.
     let trajectories = match &arguments.trajectory {
         Some(folder) => prepare(folder, scenario.cases.len(), arguments.force)?,

@@ -3,7 +3,9 @@
 mod check;
 mod collide;
 mod laws;
+mod progress;
 mod run;
+mod set;
 mod words;
 
 use std::process::ExitCode;

@@ -1,17 +1,17 @@
 //! `pulvis run`: the stages of a scenario.
 
-use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use pulvis_core::InstructionSet;
 use pulvis_input::scenario::Scenario;
-use pulvis_lab::protocol::{Progress, RunOptions, RunSummary, run};
+use pulvis_lab::protocol::{RunOptions, RunSummary, run};
 
+use super::progress::ProgressLine;
+use super::set::Settings;
 use super::words::duration;
 use crate::failure::{Failure, print};
 
@@ -26,7 +26,9 @@ pub struct Arguments {
     /// Output folder, instead of the scenario's own
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Write over the run that is in the output folder
+    #[command(flatten)]
+    set: Settings,
+    /// Remove the files of the run that is in the output folder, if it has ended, and run again
     #[arg(long)]
     force: bool,
     /// Number of threads; results do not depend on it [default: all processors that get 500 particles each]
@@ -48,7 +50,7 @@ fn instruction_set(name: &str) -> Result<InstructionSet, String> {
 }
 
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let scenario = Scenario::load(&arguments.file).map_err(Failure::bad_input)?;
+    let scenario = Scenario::load_with(&arguments.file, &arguments.set.pairs).map_err(Failure::bad_input)?;
     let stop = Arc::new(AtomicBool::new(false));
     let handler = Arc::clone(&stop);
     // A second Ctrl-C while files are being completed changes nothing: they are complete in a moment.
@@ -69,59 +71,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     })?;
     print(&describe(&summary))?;
     Ok(if summary.interrupted() { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
-}
-
-/// One line that is written over and over in a terminal; elsewhere, a line at the end of each stage.
-struct ProgressLine {
-    bar: Option<ProgressBar>,
-    quiet: bool,
-}
-
-impl ProgressLine {
-    fn new(quiet: bool) -> Self {
-        let bar = (!quiet && std::io::stderr().is_terminal()).then(|| {
-            let bar = ProgressBar::new(1000);
-            // The template is a constant; without it the bar shows less.
-            if let Ok(style) = ProgressStyle::with_template("{bar:20} {msg}") {
-                bar.set_style(style);
-            }
-            bar
-        });
-        Self { bar, quiet }
-    }
-
-    fn show(&mut self, progress: &Progress) {
-        let message = describe_progress(progress);
-        match (&self.bar, progress.ending) {
-            (Some(bar), None) => {
-                bar.set_position((1000.0 * progress.fraction.unwrap_or(0.0)) as u64);
-                bar.set_message(message);
-            }
-            (Some(bar), Some(_)) => bar.println(message),
-            (None, Some(_)) if !self.quiet => {
-                let _ = writeln!(std::io::stderr(), "{message}");
-            }
-            (None, _) => {}
-        }
-    }
-
-    fn close(&self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
-    }
-}
-
-fn describe_progress(progress: &Progress) -> String {
-    let stage = format!("[{}/{}] {}", progress.number, progress.stages, progress.stage);
-    let state = match (progress.ending, progress.remaining) {
-        (Some(ending), _) => format!("{} after step {}", ending.text(), progress.steps),
-        (None, Some(remaining)) => {
-            format!("{:.0} steps/s, {} left", progress.steps_per_second, duration(remaining))
-        }
-        (None, None) => format!("{:.0} steps/s", progress.steps_per_second),
-    };
-    format!("{stage}: t = {:.4e} s, {state}, energy error {:.1e}", progress.time, progress.energy_error)
 }
 
 fn describe(summary: &RunSummary) -> String {

@@ -11,8 +11,8 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// A size in memory.
-pub fn bytes(size: usize) -> String {
+/// A size in memory or on a disk.
+pub fn bytes(size: u64) -> String {
     let size = size as f64;
     match size {
         size if size < 1e3 => format!("{size:.0} B"),

@@ -113,6 +113,9 @@ fn check_count(found: usize) -> Result<(), SetupError> {
 }
 
 impl Simulation {
+    /// The largest number of particles that a simulation can have.
+    pub const MOST_PARTICLES: usize = MOST_PARTICLES;
+
     /// Sets the simulation up and computes the forces of its initial state.
     pub fn new(setup: Setup) -> Result<Self, SetupError> {
         let Setup { particles, interactions, walls, domain, background, time_step } = setup;
@@ -203,7 +206,11 @@ impl Simulation {
     fn check_models(&self) -> Result<(), SetupError> {
         let walls = self.walls.iter().map(|wall| wall.material);
         for &one in &self.materials {
-            for other in self.materials.iter().copied().chain(walls.clone()) {
+            // A single particle of its material has nothing of its kind to meet.
+            let is_lone =
+                self.particles.material.iter().filter(|&&material| material == one).take(2).count() < 2;
+            let partners = self.materials.iter().copied().filter(|&other| other != one || !is_lone);
+            for other in partners.chain(walls.clone()) {
                 if self.interactions.get(one, other).is_none() {
                     return Err(SetupError::NoModel { one, other });
                 }

@@ -47,6 +47,20 @@ impl Bodies {
     }
 }
 
+/// What is wrong with a sphere whose mass or moment of inertia is not a normal number: everything that is
+/// computed from it would be zero or infinite.
+pub(crate) fn unfit_for_numbers(sphere: &Sphere) -> Option<Problem> {
+    let Sphere { radius, mass } = *sphere;
+    let inertia = 0.4 * mass * radius * radius;
+    let (name, value, unit) = match (mass.is_normal(), inertia.is_normal()) {
+        (false, _) => ("mass", mass, "kg"),
+        (true, false) => ("moment of inertia", inertia, "kg m^2"),
+        (true, true) => return None,
+    };
+    let found = format!("a sphere of radius {radius:?} m has the {name} {value:?} {unit}");
+    Some(Problem::rule(found, "a size that numbers can hold (1e-307 to 1e308); are the units right?"))
+}
+
 /// Reads `bodies`, `radius` and one of `density` and `mass`. A pair whose spheres are equal may give
 /// one value for both.
 pub(super) fn read_bodies(table: &mut TableReader<'_>) -> Result<Bodies, Reported> {
@@ -77,7 +91,11 @@ pub(super) fn read_bodies(table: &mut TableReader<'_>) -> Result<Bodies, Reporte
                 ));
             }
         };
-        Ok(Sphere { radius, mass })
+        let sphere = Sphere { radius, mass };
+        match unfit_for_numbers(&sphere) {
+            Some(problem) => Err(table.refuse("radius", problem)),
+            None => Ok(sphere),
+        }
     };
     let first = sphere(0)?;
     if kind == "wall" { Ok(Bodies::Wall(first)) } else { Ok(Bodies::Pair([first, sphere(1)?])) }

@@ -29,6 +29,7 @@ mod closed_form;
 mod speed;
 mod sweep;
 
+pub(crate) use bodies::unfit_for_numbers;
 pub use bodies::{Bodies, Sphere};
 pub use closed_form::luding_pair;
 pub use sweep::SweptVariable;
@@ -99,11 +100,7 @@ impl CollisionScenario {
     /// # Errors
     /// All mistakes in the file, or a replacement that leads nowhere.
     pub fn load(path: impl AsRef<Path>, set: &[(String, Replacement)]) -> Result<Self, InputErrors> {
-        let mut document = Document::load(path)?;
-        for (key, value) in set {
-            document = document.with_override(key, value.clone())?;
-        }
-        Self::from_document(&document)
+        Self::from_document(&Document::load(path)?.with_overrides(set)?)
     }
 
     /// Reads a parsed scenario.
@@ -163,6 +160,7 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
     };
     let (bodies, method, speed, sweep, contact) = (bodies?, method?, speed?, sweep?, contact?);
     let draft = Draft { bodies, method, contact: contact.model };
+    let time_after_sticking = time_after_sticking.and_then(|time| draft.can_follow(&table, time));
     let cases = draft.cases(&table, speed, &sweep, sweeping);
     table.finish();
     Ok(CollisionScenario {
@@ -190,7 +188,24 @@ struct Draft {
     contact: ContactModel,
 }
 
+/// Contact times for which a pair that stuck is followed at most: its motion has long been told by then.
+const LONGEST_FOLLOWED: f64 = 1000.0;
+
 impl Draft {
+    /// Whether a pair that stuck can be followed for `time` [s].
+    fn can_follow(&self, table: &TableReader<'_>, time: f64) -> Result<f64, Reported> {
+        let (body, partner) = self.bodies.masses_and_radii();
+        let contact_time = self.contact.shortest_contact_time(body, partner);
+        let most = LONGEST_FOLLOWED * contact_time;
+        if time <= most {
+            return Ok(time);
+        }
+        let found = format!(
+            "{time} s is more than {LONGEST_FOLLOWED} times the shortest contact, {contact_time:.4e} s"
+        );
+        Err(table.refuse("time_after_sticking", Problem::rule(found, format!("{most:.4e} s or less"))))
+    }
+
     fn cases(
         &self,
         table: &TableReader<'_>,

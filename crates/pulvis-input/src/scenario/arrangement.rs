@@ -7,7 +7,7 @@ use crate::list::{List, Vector};
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use crate::shape::{Integer, Name, Text};
+use crate::shape::{Integer, Text};
 use pulvis_boundary::Cuboid;
 use pulvis_math::{Dimension, Vector3};
 use pulvis_packing::Lattice;
@@ -47,7 +47,7 @@ pub(super) const MOST_PARTICLES: i64 = 10_000_000_000;
 
 /// Reads `[particles.arrangement]`; paths of files are relative to `folder`.
 pub(super) fn read_arrangement(mut table: TableReader<'_>, folder: &Path) -> Result<Arrangement, Reported> {
-    let read = match table.required("kind", Name(&["lattice", "random", "file", "list"]))? {
+    let read = match table.selector("kind", &["lattice", "random", "file", "list"])? {
         "lattice" => read_lattice(&mut table).map(Arrangement::Lattice),
         "random" => read_extent(&mut table).map(Arrangement::Random),
         "file" => read_file(&mut table, folder),

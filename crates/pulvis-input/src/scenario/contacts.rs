@@ -23,6 +23,8 @@ pub struct Contact {
 pub(super) struct MaterialUse {
     /// Materials of particles, without repetition.
     pub(super) particles: Vec<usize>,
+    /// Materials of which there is one particle, which has nothing of its own kind to meet.
+    pub(super) lone: Vec<usize>,
     /// Materials of walls, without repetition.
     pub(super) walls: Vec<usize>,
 }
@@ -30,6 +32,19 @@ pub(super) struct MaterialUse {
 impl MaterialUse {
     /// The pairs that can meet, each once and sorted.
     fn pairs(&self) -> Vec<[usize; 2]> {
+        let mut pairs = self.pairs_of_materials();
+        pairs.retain(|&[one, other]| one != other || !self.is_lone(one));
+        pairs
+    }
+
+    /// Whether a single particle is made of the material, and no wall. Its contact with its like may be
+    /// given: the number of particles is often varied.
+    fn is_lone(&self, material: usize) -> bool {
+        self.lone.contains(&material) && !self.walls.contains(&material)
+    }
+
+    /// All pairs of materials of particles, and of particles and walls.
+    fn pairs_of_materials(&self) -> Vec<[usize; 2]> {
         let others = || self.particles.iter().chain(&self.walls);
         let mut pairs: Vec<[usize; 2]> =
             self.particles.iter().flat_map(|&one| others().map(move |&other| sorted(one, other))).collect();
@@ -52,6 +67,7 @@ pub(super) fn read_contacts(
     used: Option<&MaterialUse>,
 ) -> Result<Vec<Contact>, Reported> {
     let needed = used.map(MaterialUse::pairs);
+    let allowed = used.map(MaterialUse::pairs_of_materials);
     let name = |index: usize| materials.get(index).map_or("", |material| material.name.as_str());
     let mut contacts = Vec::new();
     let mut met: Vec<([usize; 2], String)> = Vec::new();
@@ -66,7 +82,7 @@ pub(super) fn read_contacts(
                 return Err(table.refuse("", Problem::rule(found, "only one of them")));
             }
             met.push((pair, key));
-            if needed.as_ref().is_some_and(|needed| !needed.contains(&pair)) {
+            if allowed.as_ref().is_some_and(|allowed| !allowed.contains(&pair)) {
                 let found = format!("{} and {} never meet", name(pair[0]), name(pair[1]));
                 let expected = "contacts between materials of particles, or of particles and walls";
                 return Err(table.refuse("", Problem::rule(found, expected)));

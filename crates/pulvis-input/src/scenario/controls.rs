@@ -7,7 +7,6 @@ use crate::list::Vector;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use crate::shape::Name;
 use pulvis_boundary::WallMotion;
 use pulvis_boundary::motion::{Parameter, Presence, Range, Slot};
 
@@ -45,7 +44,7 @@ impl WallControl {
 /// Reads `[stages.walls.NAME]`.
 pub(super) fn read_control(mut table: TableReader<'_>, wall: &Wall) -> Result<WallControl, Reported> {
     let names: Vec<&str> = WallMotion::NAMES.iter().copied().chain([REMOVED]).collect();
-    let name = table.required("control", Name(&names))?;
+    let name = table.selector("control", &names)?;
     let read = match WallMotion::named(name) {
         Some(motion) => read_motion(&mut table, motion, wall).map(WallControl::Motion),
         None => Ok(WallControl::Removed),

@@ -72,6 +72,7 @@ pub use walls::Wall;
 
 use crate::document::Document;
 use crate::error::{InputError, InputErrors};
+use crate::overrides::Replacement;
 use crate::problem::Problem;
 use std::path::{Path, PathBuf};
 
@@ -107,7 +108,7 @@ pub struct Scenario {
 }
 
 /// Where a scenario comes from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ScenarioSource {
     /// The file as the user named it.
     pub name: String,
@@ -115,6 +116,8 @@ pub struct ScenarioSource {
     pub path: Option<PathBuf>,
     /// The whole text.
     pub text: String,
+    /// Dotted paths of the values that were set from outside the file, whose text stands in it otherwise.
+    pub replaced: Vec<String>,
 }
 
 impl Scenario {
@@ -125,6 +128,15 @@ impl Scenario {
     pub fn load(path: impl AsRef<Path>) -> Result<Self, InputErrors> {
         let path = path.as_ref();
         Self::from_document(&Document::load(path)?, Some(path))
+    }
+
+    /// As [`Self::load`] after replacing values, as `--set key=value` does.
+    ///
+    /// # Errors
+    /// All mistakes, or a replacement that leads nowhere or stands there twice.
+    pub fn load_with(path: impl AsRef<Path>, set: &[(String, Replacement)]) -> Result<Self, InputErrors> {
+        let path = path.as_ref();
+        Self::from_document(&Document::load(path)?.with_overrides(set)?, Some(path))
     }
 
     /// Reads and checks a text; `name` stands for the file in messages, and files that the scenario
@@ -153,7 +165,9 @@ impl Scenario {
             Err(_) => InputError::of_file(&self.source.name, problem),
             Ok(document) => {
                 let path = paths.iter().find(|path| document.has(path)).or(paths.last()).unwrap_or(&"");
-                document.mistake(path, problem, help)
+                let mistake = document.mistake(path, problem, help);
+                let replaced = self.source.replaced.contains(&mistake.key);
+                InputError { replaced, ..mistake }
             }
         }
     }

@@ -3,6 +3,7 @@
 use super::arrangement::{Arrangement, MOST_PARTICLES, read_arrangement};
 use super::materials::{Material, read_material_name};
 use super::radius::read_radius;
+use crate::collision::{Sphere, unfit_for_numbers};
 use crate::context::{Location, Reported};
 use crate::list::Vector;
 use crate::problem::Problem;
@@ -99,6 +100,17 @@ fn read_group(
         (Ok(radius), Ok(arrangement)) => fitting_radius(&table, arrangement, radius),
         (Err(reported), _) | (_, &Err(reported)) => Err(reported),
     };
+    if let (Ok(material), Ok(Some(radius))) = (material, &radius) {
+        let density =
+            materials.get(material).and_then(|material| material.density.filter(|value| value.is_finite()));
+        let (smallest, largest) = radius.limits();
+        for radius in [smallest, largest] {
+            let mass = density.unwrap_or(1.0) * 4.0 / 3.0 * PI * elementary::powi(radius, 3);
+            if let Some(problem) = unfit_for_numbers(&Sphere { radius, mass }) {
+                return Err(table.refuse("radius", problem));
+            }
+        }
+    }
     if let (Ok(Arrangement::Random(block)), Ok(count), Ok(Some(radius))) = (&arrangement, &count, &radius) {
         fitting_block(&table, block, *count, radius.limits().0)?;
     }

@@ -55,7 +55,8 @@ fn points(group: &ParticleGroup) -> Vec<Point> {
             corners("lattice", &lattice.extent())
         }
         Arrangement::Lattice(lattice) => {
-            lattice.sites().take(group.count).enumerate().map(|(number, at)| centre(number, at)).collect()
+            let sites = outermost_sites(lattice.counts, group.count).into_iter();
+            sites.map(|number| centre(number, lattice.site(number))).collect()
         }
         Arrangement::File { grains, .. } => {
             grains.iter().enumerate().map(|(number, grain)| centre(number, grain.position)).collect()
@@ -64,6 +65,29 @@ fn points(group: &ParticleGroup) -> Vec<Point> {
             positions.iter().enumerate().map(|(number, at)| centre(number, *at)).collect()
         }
     }
+}
+
+/// The corners of the blocks that the first `count` sites of a lattice fill: whole layers, whole rows of
+/// the next layer, and the beginning of a row; by their numbers, in order. There may be more sites than could be
+/// looked at.
+fn outermost_sites([along_x, along_y, _]: [usize; 3], count: usize) -> Vec<usize> {
+    let (rows, rest) = (count / along_x, count % along_x);
+    let (layers, whole_rows) = (rows / along_y, rows % along_y);
+    let blocks = [
+        ([0, 0, 0], [along_x, along_y, layers]),
+        ([0, 0, layers], [along_x, whole_rows, 1]),
+        ([0, whole_rows, layers], [rest, 1, 1]),
+    ];
+    let mut sites = Vec::new();
+    for (first, size) in blocks.into_iter().filter(|(_, size)| !size.contains(&0)) {
+        for corner in 0..8_usize {
+            let along = |axis: usize| first[axis] + (size[axis] - 1) * (corner >> axis & 1);
+            sites.push(along(0) + along_x * (along(1) + along_y * along(2)));
+        }
+    }
+    sites.sort_unstable();
+    sites.dedup();
+    sites
 }
 
 fn behind_wall(point: &Point, wall: &Wall) -> Problem {
@@ -94,4 +118,27 @@ fn outside_domain(point: &Point, domain: &Domain) -> Option<Problem> {
 /// The value with six digits, as a message shows it.
 fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_outermost_sites_of_a_lattice_reach_as_far_as_all_its_sites_in_every_direction() {
+        let counts = [4, 3, 5];
+        let numbers = |count: usize| (0..count).map(|n| [n % 4, n / 4 % 3, n / 12]);
+        let directions = [[1, 0, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [3, -2, 1], [-5, 7, 2], [1, 1, -9]];
+        for count in 1..=60 {
+            let outermost = outermost_sites(counts, count);
+            assert!(outermost.iter().all(|&number| number < count));
+            for direction in directions {
+                let along = |cell: [usize; 3]| -> i64 {
+                    cell.iter().zip(direction).map(|(&at, slope)| at as i64 * slope).sum()
+                };
+                let reached = outermost.iter().filter_map(|&number| numbers(60).nth(number).map(along)).max();
+                assert_eq!(reached, numbers(count).map(along).max(), "{count} {direction:?}");
+            }
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Tables of particle positions in files.
 
 use super::arrangement::Grain;
+use crate::problem::{LONGEST_VALUE, shortened};
 use pulvis_math::Vector3;
 use std::path::Path;
 use thiserror::Error;
@@ -136,7 +137,11 @@ fn parse_points(file: &str, text: &str) -> Result<Vec<Grain>, PointsError> {
             None => {
                 let found =
                     if header { Columns::from_header(&cells) } else { Columns::from_count(cells.len()) };
-                let unknown = || PointsError::Columns { file: file.to_owned(), line, found: cells.join(",") };
+                let unknown = || PointsError::Columns {
+                    file: file.to_owned(),
+                    line,
+                    found: shortened(&cells.join(","), 120),
+                };
                 let found = found.ok_or_else(unknown)?;
                 columns = Some(found);
                 if header {
@@ -165,7 +170,7 @@ fn parse_grain(file: &str, line: usize, cells: &[&str], columns: Columns) -> Res
             file: file.to_owned(),
             line,
             column,
-            found: format!("\"{cell}\""),
+            found: format!("\"{}\"", shortened(cell, LONGEST_VALUE)),
             expected,
         };
         match cell.parse::<f64>() {

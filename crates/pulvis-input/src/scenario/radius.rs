@@ -5,14 +5,13 @@ use crate::list::List;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use crate::shape::Name;
 use pulvis_math::Dimension;
 use pulvis_packing::RadiusDistribution;
 
 /// Reads `[particles.radius]`.
 pub(super) fn read_radius(mut table: TableReader<'_>) -> Result<RadiusDistribution, Reported> {
     let names = ["fixed", "uniform", "normal", "log-normal", "list"];
-    let read = match table.required("distribution", Name(&names))? {
+    let read = match table.selector("distribution", &names)? {
         "fixed" => length(&mut table, "value").map(|value| RadiusDistribution::Fixed { value }),
         "uniform" => {
             read_limits(&mut table).map(|(minimum, maximum)| RadiusDistribution::Uniform { minimum, maximum })

@@ -45,6 +45,7 @@ pub(super) fn scenario(document: &Document, path: Option<&Path>) -> Result<Scena
         name: document.name().to_owned(),
         path: path.map(Path::to_path_buf),
         text: document.text().to_owned(),
+        replaced: document.replaced(),
     };
     scenario.stages = resolve(document, &scenario, &used, planned)?;
     Ok(scenario)
@@ -86,7 +87,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     let (walls, groups) = bodies?;
     let Changing { contacts, background } = changing?;
     let scenario = Scenario {
-        source: ScenarioSource { name: String::new(), path: None, text: String::new() },
+        source: ScenarioSource::default(),
         title: title?,
         seed: seed?.unsigned_abs(),
         domain: domain?,
@@ -110,8 +111,14 @@ fn material_use(walls: &Walls, groups: &[PlacedGroup]) -> MaterialUse {
         indices.dedup();
         indices
     };
+    let count = |material: usize| -> usize {
+        let of_material = groups.iter().filter(|(group, _)| group.material == material);
+        of_material.map(|(group, _)| group.count).sum()
+    };
+    let particles = unique(groups.iter().map(|(group, _)| group.material).collect());
     MaterialUse {
-        particles: unique(groups.iter().map(|(group, _)| group.material).collect()),
+        lone: particles.iter().copied().filter(|&material| count(material) == 1).collect(),
+        particles,
         walls: unique(walls.walls.iter().map(|wall| wall.material).collect()),
     }
 }

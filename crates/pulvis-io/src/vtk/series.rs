@@ -60,11 +60,7 @@ impl SeriesWriter {
         if !time.is_finite() || time <= previous {
             return Err(IoError::FrameTime { time, previous });
         }
-        let name = |kind: &str, ending: &str| {
-            format!("{}{kind}_{number:04}.{ending}", self.prefix, number = self.entries.len())
-        };
-        let (particle_file, contact_file) = (name("particles", "vtp"), name("contacts", "vtp"));
-        let frame_file = name("frame", "vtm");
+        let [particle_file, contact_file, frame_file, _] = self.next_files();
         write_particles(&self.folder.join(&particle_file), particles)?;
         write_contacts(&self.folder.join(&contact_file), contacts)?;
         let path = self.folder.join(&frame_file);
@@ -72,6 +68,15 @@ impl SeriesWriter {
         self.entries.push(Entry { time, file: frame_file });
         write_series(&self.index(), &self.entries)?;
         Ok(path)
+    }
+
+    /// Names of the files that the next frame will write: particles, contacts, frame, index.
+    pub fn next_files(&self) -> [String; 4] {
+        let name = |kind: &str, ending: &str| {
+            format!("{}{kind}_{number:04}.{ending}", self.prefix, number = self.entries.len())
+        };
+        let index = format!("{}series.pvd", self.prefix);
+        [name("particles", "vtp"), name("contacts", "vtp"), name("frame", "vtm"), index]
     }
 
     /// Number of frames in the index.

@@ -92,7 +92,8 @@ impl<'p> Run<'p> {
     fn step(&mut self) -> Result<(), CollisionError> {
         if self.simulation.steps() >= MOST_STEPS {
             let (velocity, steps, time) = (self.problem.velocity, self.simulation.steps(), self.now.time);
-            return Err(CollisionError::TooLong { velocity, steps, time });
+            let damped = self.problem.is_damped(&self.law);
+            return Err(CollisionError::TooLong { velocity, steps, time, damped });
         }
         self.simulation.step()?;
         self.before = self.now;

@@ -9,7 +9,8 @@ use thiserror::Error;
 pub enum CollisionError {
     /// The motion takes more steps than any collision should.
     #[error(
-        "the collision at {velocity} m/s is not over after {steps} steps ({time:.3e} s); is the dashpot far beyond critical damping?"
+        "the collision at {velocity} m/s is not over after {steps} steps ({time:.3e} s); {}",
+        if *.damped { "is the dashpot far beyond critical damping?" } else { "there is no dashpot, so check the magnitudes of radii, densities and stiffnesses" }
     )]
     TooLong {
         /// Relative speed before the collision [m/s].
@@ -18,6 +19,8 @@ pub enum CollisionError {
         steps: u64,
         /// Time simulated [s].
         time: f64,
+        /// Whether the contact has a dashpot, which may be the cause.
+        damped: bool,
     },
     /// The state is no longer a number.
     #[error(

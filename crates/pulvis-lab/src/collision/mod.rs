@@ -14,12 +14,14 @@ mod extrapolation;
 mod outcome;
 mod picture;
 mod problem;
+mod sticking;
 mod table;
 
 pub use closed_form::{ClosedForm, closed_form};
 pub use error::CollisionError;
 pub use outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
 pub use picture::{figure, sampling_interval};
+pub use sticking::sticking_ranges;
 pub use table::{COLUMNS, TRAJECTORY_COLUMNS, result_table, trajectory_table};
 
 use problem::Problem;
@@ -57,6 +59,8 @@ pub fn sweep(scenario: &CollisionScenario, record: bool) -> Result<Vec<SweepPoin
     let time_after_sticking = scenario.time_after_sticking;
     let point = |case: &CollisionCase| {
         let sampling = if record { Sampling::Every(sampling_interval(case)) } else { Sampling::None };
+        // What a pair does after it has stuck is told by its course only.
+        let time_after_sticking = if record { time_after_sticking } else { 0.0 };
         let observation = Observation { sampling, time_after_sticking, ..Observation::default() };
         let collision = collide(case, &observation)?;
         Ok(SweepPoint { case: case.clone(), collision, theory: closed_form(case) })

@@ -1,18 +1,31 @@
 //! What a run will be like, said before it starts.
 
-use pulvis_math::elementary;
+use std::path::Path;
 use std::time::Instant;
 
 use pulvis_contact::theory::{CriticalVelocities, LudingPair};
 use pulvis_contact::{ContactModel, Pair};
 use pulvis_core::Particle;
-use pulvis_input::collision::luding_pair;
-use pulvis_input::scenario::Scenario;
+use pulvis_input::collision::{Bodies, Sphere, luding_pair};
+use pulvis_input::scenario::{Scenario, Stage};
+use pulvis_math::elementary;
 
+use super::disk::{DiskForecast, disk_forecast};
 use super::error::PrepareError;
-use super::packed::packed_memory;
-use super::run::sensible_threads;
+use super::folder;
+use super::measure::Measure;
+use super::memory::memory_forecast;
 use super::setup::{Prepared, between, prepare};
+use super::stage::LEAST_STEPS_TO_REST;
+use super::timing::stage_costs;
+use super::warnings::{damping_ratios, warnings};
+use crate::collision::sticking_ranges;
+
+/// Seconds for which the speeds of sticking are sought by collisions; they are left out for further contacts.
+const SEARCH: f64 = 2.0;
+
+/// Bytes that a frame writes in a second.
+const WRITTEN: f64 = 2e8;
 
 /// Everything that is known of a run before its first step.
 #[derive(Clone, Debug)]
@@ -33,11 +46,17 @@ pub struct Preflight {
     pub memory: usize,
     /// Memory that it would need if the particles came to a dense packing, twelve neighbours each [byte];
     /// `None` where that cannot be told.
-    pub packed_memory: Option<usize>,
+    pub packed_memory: Option<u64>,
+    /// Memory that is available [byte]; `None` where the system does not say.
+    pub available_memory: Option<u64>,
     /// Candidate contacts at the start.
     pub candidates: usize,
-    /// Wall-clock time of a step, measured over a short trial from the initial state [s].
-    pub seconds_per_step: f64,
+    /// The room that the files take.
+    pub disk: DiskForecast,
+    /// Wall-clock time for frames [s].
+    pub frame_seconds: f64,
+    /// What is valid and yet probably not meant.
+    pub warnings: Vec<String>,
 }
 
 /// A contact between particles of mean size in the first stage.
@@ -49,10 +68,22 @@ pub struct ContactForecast {
     pub law: &'static str,
     /// Duration of the shortest motion [s].
     pub contact_time: f64,
-    /// Relative velocity at which the contact becomes fully plastic, v_p [m/s]; Luding law only.
+    /// Relative velocity at which the contact becomes fully plastic without dashpot, v_p [m/s]; Luding law
+    /// only.
     pub plastic_velocity: Option<f64>,
-    /// Velocities between which pairs stick [m/s]; Luding law only.
-    pub sticking: Option<CriticalVelocities>,
+    /// Velocities at which pairs that meet head on stick.
+    pub sticking: Sticking,
+}
+
+/// Velocities at which pairs that meet head on stick.
+#[derive(Clone, Debug)]
+pub enum Sticking {
+    /// By the closed forms, for contacts without dashpot.
+    ClosedForm(CriticalVelocities),
+    /// Found by collisions, see [`sticking_ranges`] [m/s].
+    Computed(Vec<[f64; 2]>),
+    /// Not known: the pair is overdamped, or there are too many contacts to try.
+    Unknown,
 }
 
 /// What a stage will be like.
@@ -67,26 +98,57 @@ pub struct StageForecast {
     /// Number of steps, where the duration is known; an upper limit where other rules may end the
     /// stage before.
     pub steps: Option<u64>,
+    /// Steps that it takes at least.
+    pub least_steps: u64,
     /// Whether other rules than time may end it.
     pub open_ended: bool,
+    /// Wall-clock time of a step, averaged over the stage [s].
+    pub seconds_per_step: f64,
+    /// Wall-clock time of the rows of the time series for each step [s].
+    pub row_seconds_per_step: f64,
 }
 
 impl Preflight {
-    /// Number of steps of all stages whose duration is known.
+    /// Number of steps of all stages whose duration is known; an upper limit where other rules may end stages.
     pub fn steps(&self) -> u64 {
         self.stages.iter().filter_map(|stage| stage.steps).sum()
+    }
+
+    /// Number of steps that all stages take at least.
+    pub fn least_steps(&self) -> u64 {
+        self.stages.iter().map(|stage| stage.least_steps).sum()
+    }
+
+    /// Wall-clock time [s] for the least and for the largest number of steps of all stages, as far as it is known.
+    pub fn seconds(&self) -> [f64; 2] {
+        let sum = |steps: fn(&StageForecast) -> u64| -> f64 {
+            let of_stage = |stage: &StageForecast| {
+                steps(stage) as f64 * (stage.seconds_per_step + stage.row_seconds_per_step)
+            };
+            self.frame_seconds + self.stages.iter().map(of_stage).sum::<f64>()
+        };
+        [sum(|stage| stage.least_steps), sum(|stage| stage.steps.unwrap_or(stage.least_steps))]
+    }
+
+    /// Whether the rules of some stage may end it at different times.
+    pub fn is_open_ended(&self) -> bool {
+        self.stages.iter().any(|stage| stage.open_ended || stage.steps.is_none())
     }
 }
 
 /// Checks a scenario with its particles and says what the run will be like. Writes nothing.
+///
+/// # Errors
+/// What would keep the run from starting, but for its output folder, which is among the warnings.
 pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
-    let prepared = prepare(scenario)?;
+    let mut prepared = prepare(scenario)?;
+    let memory = memory_forecast(scenario);
     let particles = &prepared.particles;
     let range = |value: fn(&Particle) -> f64| {
         let values = particles.iter().map(value);
         values.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], value| [low.min(value), high.max(value)])
     };
-    Ok(Preflight {
+    let mut forecast = Preflight {
         particles: particles.len(),
         radii: range(|particle| particle.radius),
         masses: range(|particle| particle.mass),
@@ -94,28 +156,74 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
         contacts: forecasts(scenario, particles),
         stages: stages(scenario, &prepared),
         memory: prepared.simulation.memory_size(),
-        packed_memory: packed_memory(particles, &prepared.stages),
+        packed_memory: memory.map(|memory| memory.packed),
+        available_memory: memory.and_then(|memory| memory.available),
         candidates: prepared.simulation.candidates(),
-        seconds_per_step: time_a_step(&prepared),
-    })
+        disk: DiskForecast { timeseries: 0.0, snapshots: 0.0, frame: 0.0, frames: 0.0, free: None },
+        frame_seconds: 0.0,
+        warnings: warnings(scenario, &prepared),
+    };
+    let columns = Measure::new(scenario, &prepared.simulation).columns().len();
+    forecast.disk =
+        disk_forecast(scenario, &scenario.output.folder, forecast.particles, columns, &forecast.stages);
+    forecast.frame_seconds = forecast.disk.snapshots / WRITTEN;
+    forecast.warn_of_resources(&scenario.output.folder);
+    // Last: the trials make steps of the prepared simulation.
+    let durations: Vec<Option<f64>> =
+        forecast.stages.iter().map(|stage| stage.steps.map(|steps| steps as f64 * stage.time_step)).collect();
+    let costs = stage_costs(scenario, &mut prepared, &durations);
+    for (stage, costs) in forecast.stages.iter_mut().zip(costs) {
+        let steps = stage.steps.unwrap_or(stage.least_steps).max(1) as f64;
+        stage.seconds_per_step = costs.step;
+        stage.row_seconds_per_step = costs.row * stage.count(scenario.output.timeseries) / steps;
+    }
+    Ok(forecast)
+}
+
+impl Preflight {
+    /// What the machine lacks, and a folder that the run would refuse.
+    fn warn_of_resources(&mut self, output: &Path) {
+        if let (Some(packed), Some(available)) = (self.packed_memory, self.available_memory)
+            && packed > available
+        {
+            let text = "the memory that is available does not hold a dense packing of the particles";
+            self.warnings.push(text.to_owned());
+        }
+        if self.disk.free.is_some_and(|free| self.disk.total() > free as f64) {
+            self.warnings.push("the disk has not enough room for the output".to_owned());
+        }
+        if let Err(error) = folder::look(output, false) {
+            self.warnings.push(format!("`pulvis run` will refuse this: {error}"));
+        }
+    }
 }
 
 fn forecasts(scenario: &Scenario, particles: &[Particle]) -> Vec<ContactForecast> {
     let Some(stage) = scenario.stages.first() else { return Vec::new() };
+    let began = Instant::now();
     stage
         .contacts
         .iter()
         .filter_map(|contact| {
-            let [one, other] = contact.materials.map(|material| mean_body(particles, material));
-            let (body, partner) = match (one, other) {
-                (Some(one), other) => (one, other),
-                (None, Some(other)) => (other, None),
-                (None, None) => return None,
-            };
+            let (body, partner) = typical_bodies(particles, contact.materials)?;
             let names = contact.materials.map(|material| scenario.materials[material].name.as_str());
-            Some(forecast(names.join("-"), &contact.model, body, partner))
+            let searches = began.elapsed().as_secs_f64() < SEARCH;
+            Some(forecast(names.join("-"), &contact.model, body, partner, searches))
         })
         .collect()
+}
+
+/// Mass [kg] and radius [m] of a particle.
+type Body = (f64, f64);
+
+/// Two particles of the mean radii of two materials; the second one is a wall where it
+/// is `None`. `None` without particles of either.
+pub(super) fn typical_bodies(particles: &[Particle], materials: [usize; 2]) -> Option<(Body, Option<Body>)> {
+    match materials.map(|material| mean_body(particles, material)) {
+        [Some(one), other] => Some((one, other)),
+        [None, Some(other)] => Some((other, None)),
+        [None, None] => None,
+    }
 }
 
 /// Mass [kg] and radius [m] of a particle of the mean radius of a material.
@@ -132,18 +240,33 @@ fn forecast(
     model: &ContactModel,
     body: (f64, f64),
     partner: Option<(f64, f64)>,
+    searches: bool,
 ) -> ContactForecast {
     let pair = match partner {
         Some(partner) => Pair::spheres(body.0, partner.0, body.1, partner.1),
         None => Pair::wall(body.0, body.1),
     };
     let theory: Option<LudingPair> = luding_pair(model, &pair);
+    let damping = damping_ratios(model, body, partner).first().map_or(0.0, |(_, ratio)| *ratio);
+    let sticking = match &theory {
+        Some(theory) if damping == 0.0 => Sticking::ClosedForm(theory.critical_velocities()),
+        // An overdamped pair creeps for longer than anybody wants to wait.
+        _ if damping >= 1.0 || !searches => Sticking::Unknown,
+        _ => {
+            let sphere = |(mass, radius): (f64, f64)| Sphere { radius, mass };
+            let bodies = match partner {
+                Some(partner) => Bodies::Pair([sphere(body), sphere(partner)]),
+                None => Bodies::Wall(sphere(body)),
+            };
+            sticking_ranges(bodies, model).map_or(Sticking::Unknown, Sticking::Computed)
+        }
+    };
     ContactForecast {
         between,
         law: model.normal.entry().name,
         contact_time: model.shortest_contact_time(body, partner),
         plastic_velocity: theory.as_ref().map(LudingPair::v_p0),
-        sticking: theory.as_ref().map(LudingPair::critical_velocities),
+        sticking,
     }
 }
 
@@ -159,24 +282,23 @@ fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForecast> {
                 time_step: plan.time_step,
                 shortest: plan.shortest.map(|contact| (contact.duration, between(scenario, &contact))),
                 steps: duration.map(|duration| (duration / plan.time_step).ceil() as u64),
+                least_steps: least_steps(stage, plan.time_step, duration),
                 open_ended: rules.are_open_ended(),
+                seconds_per_step: f64::NAN,
+                row_seconds_per_step: f64::NAN,
             }
         })
         .collect()
 }
 
-/// Wall-clock time of a step [s], from a copy of the simulation; a tenth of a second at the most.
-fn time_a_step(prepared: &Prepared) -> f64 {
-    let mut trial = prepared.simulation.clone();
-    // As many threads as the run would take; one if the system cannot start them.
-    let _ = trial.set_threads(sensible_threads(trial.particles().len()));
-    let began = Instant::now();
-    let mut steps = 0_u32;
-    while began.elapsed().as_secs_f64() < 0.1 && steps < 10_000 {
-        if trial.step().is_err() {
-            break;
-        }
-        steps += 1;
-    }
-    began.elapsed().as_secs_f64() / f64::from(steps.max(1))
+/// Steps that a stage takes at least, whatever its rules find.
+fn least_steps(stage: &Stage, time_step: f64, duration: Option<f64>) -> u64 {
+    let rules = &stage.until;
+    let most = duration.unwrap_or(f64::INFINITY);
+    let least = match (rules.kinetic_to_elastic, rules.strain.is_some() || rules.stress.is_some()) {
+        (None, false) => most,
+        (Some(_), false) => most.min(rules.minimum_time + LEAST_STEPS_TO_REST as f64 * time_step),
+        (_, true) => 0.0,
+    };
+    if least.is_finite() { (least / time_step).ceil() as u64 } else { 0 }
 }

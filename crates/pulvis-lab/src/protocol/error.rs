@@ -14,14 +14,50 @@ pub enum PrepareError {
     /// A mistake in the scenario that shows once its particles exist.
     #[error("{0}")]
     Scenario(Box<InputError>),
-    /// The output folder holds something already.
+    /// The output folder holds a run.
     #[error(
         "output folder {} is not empty; choose another one with `--output DIR`, or write over the run in it with `--force`",
         .folder.display()
     )]
+    RunInFolder {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The output folder holds something that is no run.
+    #[error("output folder {} is not empty; choose another one with `--output DIR`", .folder.display())]
     FolderInUse {
         /// The folder.
         folder: PathBuf,
+    },
+    /// `--force` and a folder that holds something that is no run.
+    #[error(
+        "output folder {} is not empty and holds no run of Pulvis with its list of files, so that `--force` would remove what it does not know; choose another folder with `--output DIR`, or empty this one",
+        .folder.display()
+    )]
+    NoRun {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A file that the run in the folder has not made, and that a new one may write over.
+    #[error(
+        "{} was not made by the run in its folder, and the new run may write over it; move it elsewhere, or choose another folder with `--output DIR`",
+        .file.display()
+    )]
+    FileInTheWay {
+        /// The file.
+        file: PathBuf,
+    },
+    /// Another run writes into the folder.
+    #[error(
+        "a run is going on in the output folder {}{}; wait for its end or stop it, or choose another folder with `--output DIR`",
+        .folder.display(),
+        .process.as_ref().map_or(String::new(), |process| format!(" (process {process})"))
+    )]
+    RunGoesOn {
+        /// The folder.
+        folder: PathBuf,
+        /// The number of its process, where it can be read.
+        process: Option<String>,
     },
     /// The output folder cannot be used.
     #[error("output folder {}: {source}; choose another one with `--output DIR`", .folder.display())]
@@ -51,6 +87,14 @@ pub enum RunError {
     /// Output could not be written.
     #[error(transparent)]
     Output(#[from] IoError),
+    /// A file of the run cannot be made, or would replace one that is not its own.
+    #[error("cannot make {}: {source}; move away what is there, or choose another folder with `--output DIR`", .file.display())]
+    File {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
     /// A switch between stages was refused by the engine.
     #[error("stage `{stage}`: {source}")]
     Switch {

@@ -115,7 +115,7 @@ impl Measure {
 
 /// Sums over all contacts.
 #[derive(Clone, Copy, Debug, Default)]
-struct ContactSums {
+pub(super) struct ContactSums {
     pairs: f64,
     at_walls: f64,
     overlap_max: f64,
@@ -125,7 +125,7 @@ struct ContactSums {
 }
 
 impl ContactSums {
-    fn of(simulation: &Simulation) -> Self {
+    pub(super) fn of(simulation: &Simulation) -> Self {
         let mut sums = Self::default();
         simulation.for_each_contact(&mut |contact| {
             let touching = f64::from(u8::from(contact.overlap > 0.0));

@@ -4,22 +4,31 @@
 //! [`preflight`] says what a run will be like; [`run`] does it and writes its files.
 
 mod check;
+mod disk;
 mod error;
 mod folder;
 mod measure;
+mod memory;
 mod pace;
 mod packed;
 mod packing_picture;
 mod particles;
+mod refusal;
 mod report;
+mod resources;
 mod run;
 mod setup;
 mod snapshots;
 mod stage;
+mod timing;
+mod warnings;
 
-pub use check::{ContactForecast, Preflight, StageForecast, preflight};
+pub use check::{ContactForecast, Preflight, StageForecast, Sticking, preflight};
+pub use disk::DiskForecast;
 pub use error::{PrepareError, RunError};
 pub use measure::Measure;
+pub use memory::{MemoryForecast, memory_forecast};
 pub use run::{Progress, RunOptions, RunSummary, StageResult, run};
 pub use setup::{Prepared, StagePlan, prepare};
 pub use stage::Ending;
+pub use warnings::warnings;

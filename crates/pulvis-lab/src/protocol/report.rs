@@ -1,12 +1,13 @@
 //! Pictures of a run: energies, ledger, stress and strain, force over displacement.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use pulvis_core::Simulation;
 use pulvis_input::scenario::{Scenario, WallControl};
-use pulvis_io::IoError;
 use pulvis_io::plot::{Chart, Figure, Series as Line};
 
+use super::error::RunError;
+use super::folder::OutputFolder;
 use super::measure::Measure;
 use super::packing_picture;
 use super::setup::box_walls;
@@ -56,11 +57,11 @@ pub(super) fn draw(
     scenario: &Scenario,
     simulation: &Simulation,
     series: &Series<'_>,
-    folder: &Path,
-) -> Result<Vec<PathBuf>, IoError> {
+    output: &mut OutputFolder,
+) -> Result<Vec<PathBuf>, RunError> {
     let mut drawn = Vec::new();
-    let mut keep = |name: &str, figure: Figure| -> Result<(), IoError> {
-        let path = folder.join(name);
+    let mut keep = |name: &str, figure: Figure| -> Result<(), RunError> {
+        let path = output.file(name)?;
         figure.write(&path)?;
         drawn.push(path);
         Ok(())
@@ -72,7 +73,7 @@ pub(super) fn draw(
     if let Some(figure) = force_displacement(scenario, series) {
         keep("force_displacement.png", figure)?;
     }
-    let path = folder.join("particles.png");
+    let path = output.file("particles.png")?;
     packing_picture::draw(scenario, simulation, &path)?;
     drawn.push(path);
     Ok(drawn)

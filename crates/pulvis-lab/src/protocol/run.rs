@@ -1,6 +1,6 @@
 //! Runs the stages of a scenario and writes what they give.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -10,7 +10,7 @@ use pulvis_input::scenario::{Scenario, Snapshots as SnapshotPlan, WallControl};
 use pulvis_io::table::TimeSeriesWriter;
 
 use super::error::{PrepareError, RunError};
-use super::folder;
+use super::folder::{OutputFolder, RECORD};
 use super::measure::Measure;
 use super::pace::{Due, PACE, Pace};
 use super::report::{self, Series};
@@ -110,11 +110,11 @@ pub fn run(
 ) -> Result<RunSummary, RunError> {
     let prepared = prepare(scenario)?;
     let folder = options.folder.clone().unwrap_or_else(|| scenario.output.folder.clone());
-    folder::open(&folder, options.force)?;
+    let mut output = OutputFolder::open(&folder, options.force)?;
     let resolved = scenario.to_resolved_toml(&options.version);
-    let record = folder.join("run.toml");
+    let record = output.file(RECORD)?;
     std::fs::write(&record, resolved).map_err(|source| PrepareError::Folder { folder: record, source })?;
-    let mut run = Run::begin(scenario, prepared, &folder)?;
+    let mut run = Run::begin(scenario, prepared, output)?;
     let threads = options.threads.unwrap_or_else(|| sensible_threads(run.simulation.particles().len()));
     run.simulation
         .set_threads(threads)
@@ -123,7 +123,7 @@ pub fn run(
         run.simulation.set_instructions(instructions);
     }
     let stages = run.stages(stop, watch)?;
-    run.finish(stages, folder.clone())
+    run.finish(stages)
 }
 
 /// Particles for which a further thread pays: with fewer, threads wait for each other longer than
@@ -148,17 +148,18 @@ struct Run<'a> {
     writer: TimeSeriesWriter,
     rows: Vec<Vec<f64>>,
     snapshots: Option<Snapshots>,
-    folder: &'a Path,
+    output: OutputFolder,
     began: Instant,
     rows_due: Due,
     frames_due: Option<Due>,
 }
 
 impl<'a> Run<'a> {
-    fn begin(scenario: &'a Scenario, prepared: Prepared, folder: &'a Path) -> Result<Self, RunError> {
+    fn begin(scenario: &'a Scenario, prepared: Prepared, mut output: OutputFolder) -> Result<Self, RunError> {
         let Prepared { simulation, stages: plans, .. } = prepared;
         let measure = Measure::new(scenario, &simulation);
-        let writer = TimeSeriesWriter::create(&folder.join("timeseries.csv"), measure.columns())?;
+        let writer = TimeSeriesWriter::create(&output.file("timeseries.csv")?, measure.columns())?;
+        let folder = output.path();
         let (snapshots, frames_due) = match scenario.output.snapshots {
             SnapshotPlan::Never => (None, None),
             SnapshotPlan::StageEnds => (Some(Snapshots::create(folder)?), None),
@@ -172,7 +173,7 @@ impl<'a> Run<'a> {
             writer,
             rows: Vec::new(),
             snapshots,
-            folder,
+            output,
             began: Instant::now(),
             rows_due: Due::new(scenario.output.timeseries),
             frames_due,
@@ -295,7 +296,7 @@ impl<'a> Run<'a> {
 
     fn frame(&mut self) -> Result<(), RunError> {
         match &mut self.snapshots {
-            Some(snapshots) => Ok(snapshots.write(&self.simulation)?),
+            Some(snapshots) => snapshots.write(&self.simulation, &mut self.output),
             None => Ok(()),
         }
     }
@@ -324,19 +325,19 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn finish(mut self, stages: Vec<StageResult>, folder: PathBuf) -> Result<RunSummary, RunError> {
+    fn finish(mut self, stages: Vec<StageResult>) -> Result<RunSummary, RunError> {
         self.writer.finish()?;
         let error_column = self.measure.column("relative_error").unwrap_or(0);
         let errors = self.rows.iter().map(|row| row[error_column].abs());
         let energy_error_max = errors.fold(0.0, f64::max);
         let series = Series { measure: &self.measure, rows: &self.rows };
         let pictures = if self.scenario.output.plots {
-            report::draw(self.scenario, &self.simulation, &series, self.folder)?
+            report::draw(self.scenario, &self.simulation, &series, &mut self.output)?
         } else {
             Vec::new()
         };
         Ok(RunSummary {
-            folder,
+            folder: self.output.path().to_owned(),
             stages,
             particles: self.simulation.particles().len(),
             steps: self.simulation.steps(),

@@ -2,15 +2,17 @@
 
 use pulvis_core::walls::{Extent, FaceArea, Wall};
 use pulvis_core::{
-    Background, ContactPartner, Domain, Interactions, MaterialIndex, Particle, Setup, SetupError,
-    ShortestContact, Simulation, shortest_contact,
+    Background, ContactPartner, Domain, Interactions, MaterialIndex, Particle, Setup, ShortestContact,
+    Simulation, shortest_contact,
 };
 use pulvis_input::scenario::{Contact, Scenario, Side, TimeStep, Wall as WallPlan, WallControl};
 
 use pulvis_input::Problem;
 
 use super::error::PrepareError;
+use super::memory::refuse_too_many;
 use super::particles::generate;
+use super::refusal::refuse_setup;
 
 /// A simulation before its first step, and what its stages will need.
 #[derive(Clone, Debug)]
@@ -42,6 +44,8 @@ pub struct StagePlan {
 
 /// Builds the simulation of a scenario and checks what only its particles can tell.
 pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
+    // Before anything is allocated for them.
+    refuse_too_many(scenario)?;
     let domain = scenario.domain.unwrap_or(Domain::unbounded());
     let particles = generate(scenario, &domain)?;
     let walls: Vec<Wall> = scenario.walls.iter().map(|plan| wall(scenario, plan)).collect();
@@ -88,7 +92,7 @@ fn stages(
     Ok(plans)
 }
 
-fn interactions(scenario: &Scenario, contacts: &[Contact]) -> Interactions {
+pub(super) fn interactions(scenario: &Scenario, contacts: &[Contact]) -> Interactions {
     let mut interactions = Interactions::new(scenario.materials.len());
     for contact in contacts {
         let [one, other] = contact.materials;
@@ -172,16 +176,6 @@ pub(super) fn box_walls(scenario: &Scenario, axis: usize) -> [Option<usize>; 2] 
             .iter()
             .position(|wall| wall.face.is_some_and(|face| face.axis.index() == axis && face.side == side))
     })
-}
-
-/// What the engine refuses, as a mistake of the scenario.
-fn refuse_setup(scenario: &Scenario, error: &SetupError) -> PrepareError {
-    let key = match error {
-        SetupError::ShortPeriod { .. } => "domain",
-        SetupError::TimeStep(_) => "time.step",
-        _ => "contacts",
-    };
-    scenario.mistake(&[key], Problem::rule(error.to_string(), "a system that can be computed"), "").into()
 }
 
 /// Refuses particles whose centres lie behind a wall.

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use super::error::RunError;
+use super::folder::OutputFolder;
 use pulvis_core::{ContactPartner, ContactView, Simulation};
 use pulvis_io::IoError;
 use pulvis_io::vtk::{Column, ContactFrame, ParticleFrame, SeriesWriter};
@@ -18,7 +20,11 @@ impl Snapshots {
     }
 
     /// Writes the present state, unless it has just been written.
-    pub(super) fn write(&mut self, simulation: &Simulation) -> Result<(), IoError> {
+    pub(super) fn write(
+        &mut self,
+        simulation: &Simulation,
+        output: &mut OutputFolder,
+    ) -> Result<(), RunError> {
         if self.last_step == Some(simulation.steps()) {
             return Ok(());
         }
@@ -57,7 +63,11 @@ impl Snapshots {
         ];
         contact_columns.extend(contacts.memory.iter().map(|(name, values)| Column::scalar(name, values)));
         let contact_frame = ContactFrame { ends: &contacts.ends, columns: &contact_columns };
-        self.series.write(simulation.time(), &particle_frame, &contact_frame).map(|_| ())
+        for name in self.series.next_files() {
+            output.file(&name)?;
+        }
+        self.series.write(simulation.time(), &particle_frame, &contact_frame)?;
+        Ok(())
     }
 }
 

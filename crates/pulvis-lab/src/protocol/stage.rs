@@ -13,6 +13,9 @@ pub(super) const LOOK_EVERY: u64 = 50;
 /// the elastic energy must stay low over this many looks (of [`LOOK_EVERY`] steps: about ten contacts).
 const LOOKS_IN_A_ROW: u32 = 10;
 
+/// A sample cannot be found at rest after fewer steps.
+pub(super) const LEAST_STEPS_TO_REST: u64 = LOOK_EVERY * LOOKS_IN_A_ROW as u64;
+
 /// Why a stage ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {

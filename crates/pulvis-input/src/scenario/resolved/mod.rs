@@ -19,6 +19,12 @@ impl Scenario {
         let mut writer = Writer::default();
         writer.comment(&format!("Pulvis {version}"));
         writer.comment(&format!("resolved from {} with seed {}", self.source.name, self.seed));
+        if !self.source.replaced.is_empty() {
+            writer.comment(&format!(
+                "with values set from outside the file: {}",
+                self.source.replaced.join(", ")
+            ));
+        }
         writer.comment("in SI, defaults written out; `pulvis run` of this file repeats the run");
         if let Some(title) = &self.title {
             writer.key("title", text(title));

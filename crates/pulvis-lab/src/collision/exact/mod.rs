@@ -16,9 +16,6 @@ use super::problem::Problem;
 use events::Event;
 use pulvis_contact::ContactResponse;
 
-/// More steps than any collision should take: overdamped pairs creep, but not that long.
-const MOST_STEPS: u64 = 2_000_000;
-
 /// Part of the shortest contact time that a step may cover at most, so that no pair of turning points
 /// falls between its ends.
 const LONGEST_STEP: f64 = 1.0 / 8.0;
@@ -114,9 +111,10 @@ impl<'p> Flight<'p> {
     /// Takes one step, up to the next event.
     fn step(&mut self) -> Result<(), CollisionError> {
         self.steps += 1;
-        if self.steps > MOST_STEPS {
+        if self.steps > self.observation.most_steps {
             let (velocity, steps, time) = (self.problem.velocity, self.steps, self.time);
-            return Err(CollisionError::TooLong { velocity, steps, time });
+            let damped = self.problem.is_damped(&self.dynamics.law);
+            return Err(CollisionError::TooLong { velocity, steps, time, damped });
         }
         let outward = self.motion[1] < 0.0 || (self.motion[1] == 0.0 && self.response.normal_force > 0.0);
         let direction = if outward { -1.0 } else { 1.0 };

@@ -1,0 +1,8 @@
+//! `pulvis run` and `pulvis check` from outside: files, messages, exit codes, Ctrl-C.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
+
+mod check;
+mod folder;
+mod place;
+mod run;

@@ -1,0 +1,81 @@
+//! The room that the files of a run take.
+
+use std::path::Path;
+
+use pulvis_input::scenario::{Interval, Scenario, Snapshots};
+
+use super::check::StageForecast;
+use super::resources::free_disk_space;
+
+/// Bytes of a number in the time series, on the average.
+const NUMBER: f64 = 18.0;
+
+/// Bytes of a particle in a frame: position, velocity, angular velocity, force, torque, radius, id, type,
+/// coordination and two numbers of its cell, eight bytes each and a third more as text.
+const PARTICLE: f64 = 4.0 / 3.0 * 8.0 * (5.0 * 3.0 + 4.0 + 2.0);
+
+/// Bytes of a contact in a frame: two ends, force, two ids, normal force, overlap, memory and three numbers of
+/// its cell.
+const CONTACT: f64 = 4.0 / 3.0 * 8.0 * (3.0 * 3.0 + 5.0 + 3.0);
+
+/// Contacts of a particle in a packing, half of the coordination.
+const CONTACTS: f64 = 3.5;
+
+/// What the files of a run take.
+#[derive(Clone, Copy, Debug)]
+pub struct DiskForecast {
+    /// The time series [byte].
+    pub timeseries: f64,
+    /// All frames [byte].
+    pub snapshots: f64,
+    /// One frame [byte].
+    pub frame: f64,
+    /// Number of frames.
+    pub frames: f64,
+    /// Room that is left [byte]; `None` where the system does not say.
+    pub free: Option<u64>,
+}
+
+impl DiskForecast {
+    /// All files [byte].
+    pub fn total(&self) -> f64 {
+        self.timeseries + self.snapshots
+    }
+}
+
+/// Estimates the files of a run, as long as its stages are known to take, with the contacts of a packing.
+pub(super) fn disk_forecast(
+    scenario: &Scenario,
+    folder: &Path,
+    particles: usize,
+    columns: usize,
+    stages: &[StageForecast],
+) -> DiskForecast {
+    let rows: f64 = stages.iter().map(|stage| 2.0 + stage.count(scenario.output.timeseries)).sum();
+    let frames: f64 = match scenario.output.snapshots {
+        Snapshots::Never => 0.0,
+        Snapshots::StageEnds => 1.0 + stages.len() as f64,
+        Snapshots::Every(interval) => {
+            1.0 + stages.iter().map(|stage| 1.0 + stage.count(interval)).sum::<f64>()
+        }
+    };
+    let frame = particles as f64 * (PARTICLE + CONTACTS * CONTACT);
+    DiskForecast {
+        timeseries: rows * columns as f64 * NUMBER,
+        snapshots: frames * frame,
+        frame,
+        frames,
+        free: free_disk_space(folder),
+    }
+}
+
+impl StageForecast {
+    /// How often something regular happens in the stage, as long as it is known to take.
+    pub(super) fn count(&self, interval: Interval) -> f64 {
+        let steps = self.steps.unwrap_or(self.least_steps) as f64;
+        match interval {
+            Interval::Steps(every) => (steps / every as f64).floor(),
+            Interval::Time(every) => (steps * self.time_step / every).floor().min(steps),
+        }
+    }
+}
