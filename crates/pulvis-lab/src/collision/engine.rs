@@ -92,7 +92,7 @@ impl<'p> Run<'p> {
     fn step(&mut self) -> Result<(), CollisionError> {
         if self.simulation.steps() >= MOST_STEPS {
             let (velocity, steps, time) = (self.problem.velocity, self.simulation.steps(), self.now.time);
-            let damped = self.problem.is_damped(&self.law);
+            let damped = self.problem.is_damped();
             return Err(CollisionError::TooLong { velocity, steps, time, damped });
         }
         self.simulation.step()?;

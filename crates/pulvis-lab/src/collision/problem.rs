@@ -1,6 +1,6 @@
 //! One collision, as both methods see it.
 
-use pulvis_contact::{ContactModel, NormalLaw, Pair};
+use pulvis_contact::{ContactModel, Pair};
 use pulvis_input::collision::{Bodies, CollisionCase};
 use pulvis_math::elementary;
 
@@ -31,8 +31,9 @@ impl<'c> Problem<'c> {
     }
 
     /// Whether a dashpot acts along the line of centres, be it the normal law's own.
-    pub fn is_damped<N: NormalLaw>(&self, law: &N) -> bool {
-        law.dashpot(&self.pair) > 0.0 || self.contact.laws.viscosity.largest_coefficient(&self.pair) > 0.0
+    pub fn is_damped(&self) -> bool {
+        let own = self.contact.normal.dashpot(&self.pair);
+        own + self.contact.laws.viscosity.largest_coefficient(&self.pair, self.stiffness_scale()) > 0.0
     }
 
     /// Kinetic energy of the relative motion [J].

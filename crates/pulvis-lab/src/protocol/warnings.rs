@@ -1,7 +1,7 @@
 //! What is valid and yet probably not meant.
 
 use pulvis_boundary::WallMotion;
-use pulvis_contact::{ContactModel, NormalLaw, NormalLawVisitor, Pair};
+use pulvis_contact::{ContactModel, Pair};
 use pulvis_input::scenario::{Axis, BoxFace, Contact, Crossing, Scenario, Side, Stage, WallControl};
 use pulvis_math::Vector3;
 
@@ -174,12 +174,13 @@ pub(super) fn damping_ratios(
         None => Pair::wall(body.0, body.1),
     };
     let laws = &model.laws;
-    let (stiffness, own) = model.normal.accept(Steepest(pair));
+    let stiffness = model.normal.max_stiffness(&pair, &laws.expected);
+    let dashpot = model.normal.dashpot(&pair) + laws.viscosity.largest_coefficient(&pair, stiffness);
+    let contact_radius = model.normal.expected_contact_radius(&pair, &laws.expected);
     let ratio = |dashpot: f64, stiffness: f64, inverse_mass: f64| {
         if dashpot > 0.0 && stiffness > 0.0 { dashpot * (inverse_mass / stiffness).sqrt() / 2.0 } else { 0.0 }
     };
-    let normal =
-        ratio(own + laws.viscosity.largest_coefficient(&pair), stiffness, pair.inverse_reduced_mass());
+    let normal = ratio(dashpot, stiffness, pair.inverse_reduced_mass());
     // Solid spheres, I = 2/5 m a²: sliding moves mass and inertia, 1/m (1 + 5/2); rolling and torsion turn.
     let inverse_mass = |(mass, _): (f64, f64)| 1.0 / mass;
     let masses = inverse_mass(body) + partner.map_or(0.0, inverse_mass);
@@ -187,25 +188,14 @@ pub(super) fn damping_ratios(
     let turn = |(mass, radius): (f64, f64)| 2.5 * lever * lever / (mass * radius * radius);
     let turning = turn(body) + partner.map_or(0.0, turn);
     let mut ratios = vec![("along the normal", normal)];
-    for (what, slider, inverse_mass) in [
-        ("of sliding", laws.sliding, 3.5 * masses),
-        ("of rolling", laws.rolling, turning),
-        ("of torsion", laws.torsion, turning),
+    for (what, law, inverse_mass) in [
+        ("of sliding", &laws.sliding, 3.5 * masses),
+        ("of rolling", &laws.rolling, turning),
+        ("of torsion", &laws.torsion, turning),
     ] {
-        if let Some(slider) = slider {
-            ratios.push((what, ratio(slider.dashpot, slider.stiffness, inverse_mass)));
+        if let Some(law) = law {
+            ratios.push((what, ratio(law.dashpot(), law.max_stiffness(contact_radius), inverse_mass)));
         }
     }
     ratios
-}
-
-/// The steepest slope [N/m] and the own dashpot [kg/s] of a law.
-struct Steepest(Pair);
-
-impl NormalLawVisitor for Steepest {
-    type Output = (f64, f64);
-
-    fn visit<N: NormalLaw>(self, law: N) -> (f64, f64) {
-        (law.max_stiffness(&self.0), law.dashpot(&self.0))
-    }
 }

@@ -113,7 +113,7 @@ impl<'p> Flight<'p> {
         self.steps += 1;
         if self.steps > self.observation.most_steps {
             let (velocity, steps, time) = (self.problem.velocity, self.steps, self.time);
-            let damped = self.problem.is_damped(&self.dynamics.law);
+            let damped = self.problem.is_damped();
             return Err(CollisionError::TooLong { velocity, steps, time, damped });
         }
         let outward = self.motion[1] < 0.0 || (self.motion[1] == 0.0 && self.response.normal_force > 0.0);
