@@ -8,7 +8,7 @@ use super::output::{Interval, OutputPlan, Snapshots};
 use super::time::TimeStep;
 use super::{Axis, Contact, Material, NamedLaw, Scenario, Stage};
 use pulvis_contact::catalogue::mixing::MATERIAL_PROPERTIES;
-use pulvis_contact::catalogue::{Kind, Value};
+use pulvis_contact::catalogue::{Kind, Role, Value};
 use pulvis_math::{Dimension, Vector3};
 use writer::{Writer, key, list, number, quantity, text, vector};
 
@@ -86,11 +86,11 @@ fn key_of_law(contact: &Contact, law: &NamedLaw, materials: &[Material]) -> Stri
     format!("contacts.{}.{}", key(&format!("{one}-{other}")), law.role.key())
 }
 
-/// The keys of a law and their values as TOML. Conventions are no law and have no name.
+/// The keys of a law and their values as TOML. Conventions and expectations are no laws and have no name.
 fn law_keys(law: &NamedLaw) -> Vec<(String, String)> {
     let entries = crate::contact::entries(law.role);
     let entry = entries.into_iter().find(|entry| entry.name == law.name);
-    let named = law.role != pulvis_contact::catalogue::Role::Conventions;
+    let named = !matches!(law.role, Role::Conventions | Role::Expected);
     let mut keys: Vec<_> = named.then(|| ("law".to_owned(), text(law.name))).into_iter().collect();
     for (name, value) in law.values.iter() {
         let dimension = match entry.and_then(|entry| entry.parameter(name)).map(|parameter| parameter.kind) {
