@@ -11,6 +11,7 @@
 //! | [`viscosity`] | dashpots: sign, bound, lanes |
 //! | [`contact`] | whole contacts: frame, exchange, mirror, rotation, energy, lanes |
 //! | [`bodies`] | two spheres or a sphere and a wall, integrated, for closed forms |
+//! | [`reference`] | a whole engine without lists, for the fast one to be held against |
 //!
 //! `PULVIS_TESTKIT_CASES` multiplies the number of random cases, `PULVIS_TESTKIT_SEED` moves them.
 
@@ -26,6 +27,7 @@ mod live;
 pub mod noncontact;
 pub mod normal;
 pub mod parameters;
+pub mod reference;
 pub mod viscosity;
 
 pub use cases::for_each_case;

@@ -13,7 +13,7 @@ mod rotation;
 mod spring_slider;
 mod tangent;
 
-pub use mindlin::Mindlin;
+pub use mindlin::{Mindlin, Rescale};
 pub use rotation::SpringRotation;
 pub(crate) use rotation::{rescaled, twisted};
 pub use spring_slider::SpringSlider;

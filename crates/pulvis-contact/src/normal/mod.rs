@@ -181,12 +181,11 @@ macro_rules! normal_laws {
                 }
             }
 
-            /// Hands the law to the visitor if it is one of those that loops for common contacts are compiled for;
-            /// otherwise gives the visitor back.
-            pub fn accept_common<V: CommonLawVisitor>(&self, visitor: V) -> Result<V::Output, V> {
+            /// Hands the law to the visitor if it is one of those that loops for common contacts are compiled for.
+            pub fn accept_common<V: CommonLawVisitor>(&self, visitor: V) -> Option<V::Output> {
                 match self {
-                    $(Self::$common(law) => Ok(visitor.visit(*law)),)*
-                    _ => Err(visitor),
+                    $(Self::$common(law) => Some(visitor.visit(*law)),)*
+                    _ => None,
                 }
             }
 

@@ -17,25 +17,19 @@ use crate::shared::Shared;
 /// # Safety
 /// As of [`sweep`](super::sweep).
 pub(super) unsafe fn sweep(contacts: Loop<'_>) {
-    let common = contacts.group.model.is_common() && !contacts.advance.pointers;
-    let normal = contacts.group.model.normal;
-    if let Err(CommonPairs(contacts)) = accept_if(common, &normal, CommonPairs(contacts)) {
-        let level = contacts.group.model.laws.resistance_level();
-        let set = contacts.advance.instructions;
-        match level {
-            levels::NONE => set.run(PointedPairs::<{ levels::NONE }>(contacts)),
-            levels::SLIDING => set.run(PointedPairs::<{ levels::SLIDING }>(contacts)),
-            _ => set.run(PointedPairs::<{ levels::ALL }>(contacts)),
-        }
+    let model = &contacts.group.model;
+    if model.is_common() && !contacts.advance.pointers {
+        let normal = model.normal;
+        // A common contact has a common law.
+        let _ = normal.accept_common(CommonPairs(contacts));
+        return;
     }
-}
-
-fn accept_if<'a>(
-    common: bool,
-    normal: &pulvis_contact::Normal,
-    visitor: CommonPairs<'a>,
-) -> Result<(), CommonPairs<'a>> {
-    if common { normal.accept_common(visitor) } else { Err(visitor) }
+    let set = contacts.advance.instructions;
+    match model.laws.resistance_level() {
+        levels::NONE => set.run(PointedPairs::<{ levels::NONE }>(contacts)),
+        levels::SLIDING => set.run(PointedPairs::<{ levels::SLIDING }>(contacts)),
+        _ => set.run(PointedPairs::<{ levels::ALL }>(contacts)),
+    }
 }
 
 /// The loop over common contacts, with the type of their law.
