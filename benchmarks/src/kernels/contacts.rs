@@ -50,6 +50,7 @@ impl<S: Real> Contacts<S> {
                 inverse_distance: spread(group, &|contact| {
                     1.0 / (radius(2 * contact) + radius(2 * contact + 1) - overlap(contact, turn))
                 }),
+                normal_rate: None,
                 radius_i: spread(group, &|contact| radius(2 * contact)),
                 radius_j: spread(group, &|contact| radius(2 * contact + 1)),
                 velocity: vector(|contact, turn, axis| velocity(5 * contact, turn, axis)),

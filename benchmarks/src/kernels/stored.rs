@@ -49,6 +49,7 @@ pub(super) fn load_motion<R: Real, S: Stored<R>>(motion: &ContactKinematics<S>) 
         normal: load_vector(&motion.normal),
         overlap: motion.overlap.load(),
         inverse_distance: motion.inverse_distance.load(),
+        normal_rate: None,
         radius_i: motion.radius_i.load(),
         radius_j: motion.radius_j.load(),
         velocity: load_vector(&motion.velocity),

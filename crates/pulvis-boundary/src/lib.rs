@@ -1,5 +1,5 @@
-//! What surrounds the particles: blocks of space, periodic directions, gravity and drag, how walls
-//! move.
+//! What surrounds the particles: blocks of space, periodic directions, gravity and drag, shapes of walls and
+//! how they move.
 //!
 //! These are the types that scenario files are read into, that packings are made in and that the engine
 //! computes with. They know no particles, no engine and no files.
@@ -8,8 +8,10 @@ mod background;
 mod cuboid;
 mod domain;
 pub mod motion;
+mod shape;
 
 pub use background::{Background, Drag};
 pub use cuboid::Cuboid;
 pub use domain::{Domain, Images};
 pub use motion::WallMotion;
+pub use shape::{Cylinder, CylinderSide, Plane, Shape, Surface, WallShape};

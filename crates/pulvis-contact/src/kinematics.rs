@@ -12,11 +12,15 @@ pub struct ContactKinematics<R> {
     pub normal: Vector3<R>,
     /// Overlap δ, negative at a distance [m].
     pub overlap: R,
-    /// 1/distance of the centres, zero for a plane wall: how fast the normal turns [1/m].
+    /// 1/distance of the centres: with the velocity across the normal, how fast the normal turns. Zero for
+    /// walls [1/m].
     pub inverse_distance: R,
+    /// How fast the normal turns, at mid-step, where that does not follow from the relative velocity: at a curved
+    /// wall, which may rotate and may be curved in one direction only [1/s]. `None` for spheres and planes.
+    pub normal_rate: Option<Vector3<R>>,
     /// Radius of i [m].
     pub radius_i: R,
-    /// Radius of j, zero for a wall [m].
+    /// Radius of j; zero for a wall, whose point nearest to i is the second body [m].
     pub radius_j: R,
     /// Velocity of i minus velocity of j [m/s].
     pub velocity: Vector3<R>,
@@ -24,7 +28,7 @@ pub struct ContactKinematics<R> {
     pub velocity_mid: Vector3<R>,
     /// Angular velocity of i [rad/s].
     pub angular_velocity_i: Vector3<R>,
-    /// Angular velocity of j, zero for a wall [rad/s].
+    /// Angular velocity of j [rad/s].
     pub angular_velocity_j: Vector3<R>,
     /// Angular velocity of i at mid-step [rad/s].
     pub angular_velocity_i_mid: Vector3<R>,

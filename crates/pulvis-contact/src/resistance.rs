@@ -63,6 +63,12 @@ impl<'a, R: Real> Resistance<'a, R> {
         let elapsed = elapsed.keep_where(in_contact);
         let half = R::splat(0.5) * elapsed;
         let half_turn = half * motion.inverse_distance;
+        let mut normal_mid = motion.normal - sideways * half_turn;
+        let mut sideways_mid = sideways * (R::one() + half_turn * opening);
+        if let Some(rate) = motion.normal_rate {
+            normal_mid = motion.normal - rate * half;
+            sideways_mid = sideways + rate * (half * opening);
+        }
         Self {
             conventions,
             pair,
@@ -72,8 +78,8 @@ impl<'a, R: Real> Resistance<'a, R> {
             friction_reference: friction_reference.keep_where(in_contact),
             overlap,
             overlap_mid: overlap + half * opening,
-            normal_mid: motion.normal - sideways * half_turn,
-            sideways_mid: sideways * (R::one() + half_turn * opening),
+            normal_mid,
+            sideways_mid,
             elapsed,
             missed: dt - elapsed,
             began,
@@ -177,7 +183,10 @@ impl<'a, R: Real> Resistance<'a, R> {
             SpringRotation::Project => (before.tangential_to(normal), displacement),
             SpringRotation::Twist => {
                 let half = R::splat(0.5);
-                let turned = self.sideways_mid * (motion.inverse_distance * self.elapsed);
+                let turned = match motion.normal_rate {
+                    None => self.sideways_mid * (motion.inverse_distance * self.elapsed),
+                    Some(rate) => rate * self.elapsed,
+                };
                 let twist = half
                     * (motion.angular_velocity_i_mid + motion.angular_velocity_j_mid).dot(normal)
                     * self.elapsed;
@@ -186,7 +195,10 @@ impl<'a, R: Real> Resistance<'a, R> {
                 (twisted(before, normal, turned, twist), seen)
             }
             SpringRotation::Rate => {
-                let along = before.dot(motion.velocity_mid) * (motion.inverse_distance * self.elapsed);
+                let along = match motion.normal_rate {
+                    None => before.dot(motion.velocity_mid) * (motion.inverse_distance * self.elapsed),
+                    Some(rate) => before.dot(rate) * self.elapsed,
+                };
                 (before - normal * along, displacement)
             }
         }
@@ -219,8 +231,8 @@ impl<'a, R: Real> Resistance<'a, R> {
         (self.began | slips).any()
     }
 
-    /// The distances of the contact point from the two centres [m]. That from a wall means nothing, but is
-    /// not positive.
+    /// The distances of the contact point from the two centres [m]; of a wall from the nearest point of its
+    /// surface, into the particle, so it is not positive.
     #[inline(always)]
     fn arms(&self, overlap: R) -> (R, R) {
         let (radius_i, radius_j) = (self.motion.radius_i, self.motion.radius_j);

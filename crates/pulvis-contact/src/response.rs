@@ -13,7 +13,7 @@ pub struct ContactResponse<R> {
     pub force: Vector3<R>,
     /// Torque on i [N m].
     pub torque_i: Vector3<R>,
-    /// Torque on j [N m]; that on a wall means nothing.
+    /// Torque on j; on a wall about the point nearest to i [N m].
     pub torque_j: Vector3<R>,
     /// Energies.
     pub energies: ContactEnergies<R>,

@@ -7,7 +7,7 @@ use common::*;
 use pulvis_boundary::Cuboid;
 use pulvis_contact::noncontact::JumpIn;
 use pulvis_contact::{ContactModel, Linear, NonContact};
-use pulvis_core::walls::{FaceArea, PressureRamp, Servo, WallMotion};
+use pulvis_core::walls::{Cylinder, CylinderSide, FaceArea, PressureRamp, Rotation, Servo, Wall, WallMotion};
 use pulvis_core::{Background, ContactPartner, Domain, InstructionSet, Setup, Simulation};
 use pulvis_math::Vector3;
 use pulvis_packing::{gaussian_vector, random_positions, random_stream};
@@ -76,7 +76,9 @@ fn state(simulation: &Simulation) -> Bits {
         .collect();
     for (place, wall) in simulation.walls().iter().enumerate() {
         let motion = [wall.point, simulation.wall_velocity(place), simulation.wall_force(place)];
-        bits.push((format!("wall {place}"), bits_of(motion.into_iter())));
+        let mut of_wall = bits_of(motion.into_iter());
+        of_wall.push(simulation.wall_torque(place).to_bits());
+        bits.push((format!("wall {place}"), of_wall));
     }
     bits.push(("rows".to_owned(), rows.into_iter().map(|row| row as u64).collect()));
     let mut contacts = Vec::new();
@@ -236,16 +238,38 @@ fn small_and_large_particles_have_the_same_bits_however_they_are_computed() {
 }
 
 #[test]
+fn grains_in_a_drum_that_rotates_have_the_same_bits_however_they_are_computed() {
+    let edge = 18.5 * RADIUS;
+    let mut setup = implosion(380, edge, 5, viscous_luding());
+    let middle = vector(0.5 * edge, 0.0, 0.5 * edge);
+    let (axis, upper) = (vector(0.0, 1.0, 0.0), vector(1.0, 21.5 * RADIUS, 1.0));
+    setup.domain = Domain::periodic(Vector3::zero(), upper, [false, true, false]);
+    for particle in &mut setup.particles {
+        particle.velocity = particle.velocity * -1.5;
+    }
+    let motion = WallMotion::Rotation(Rotation { angular_velocity: 60.0 });
+    let drum = Cylinder { axis, radius: 14.5 * RADIUS, side: CylinderSide::Inside };
+    setup.walls = vec![Wall { motion, ..Wall::of_shape("drum", 0, middle, drum) }];
+    let mut simulation = assert_the_same_bits_in_every_way(&setup, 800);
+    let mut at_wall = 0;
+    simulation.for_each_contact(&mut |contact| {
+        at_wall += usize::from(matches!(contact.second, ContactPartner::Wall(_)));
+    });
+    assert!(at_wall > 10, "only {at_wall} contacts with the drum");
+    assert!(simulation.wall_torque(0).abs() > 0.0 && simulation.ledger().work_walls.abs() > 0.0);
+}
+
+#[test]
 fn another_order_of_sums_would_be_seen_in_the_bits() {
     // The control of this file: with another skin the same contacts stand in other blocks, and nothing
     // but the order changes in which their forces and torques are summed.
     let setup = wide_distribution();
     let way = Way::plainest();
-    let usual = state(&way.advance(&setup, 800));
+    let usual = state(&way.advance(&setup, 1000));
     let mut simulation = start(setup, STEPS_PER_CONTACT);
     simulation.set_instructions(way.instructions);
     simulation.set_skin(0.1 * RADIUS).unwrap();
-    simulation.advance(800).unwrap();
+    simulation.advance(1000).unwrap();
     let ((name, one), (_, other)) = (&state(&simulation)[0], &usual[0]);
     assert_eq!(name, "positions");
     let differing = one.iter().zip(other).filter(|(one, other)| one != other).count();

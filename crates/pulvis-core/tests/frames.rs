@@ -4,6 +4,7 @@
 mod common;
 
 use common::*;
+use pulvis_core::walls::{Cylinder, Plane, WallShape};
 use pulvis_core::{Domain, Setup};
 use pulvis_math::Vector3;
 
@@ -59,7 +60,10 @@ fn mapped(
     }
     for wall in &mut setup.walls {
         wall.point = polar(wall.point) + shift;
-        wall.normal = polar(wall.normal);
+        wall.shape = match wall.shape {
+            WallShape::Plane(Plane { normal }) => Plane { normal: polar(normal) }.into(),
+            WallShape::Cylinder(cylinder) => Cylinder { axis: axial(cylinder.axis), ..cylinder }.into(),
+        };
     }
     setup.background.gravity = polar(setup.background.gravity);
     setup

@@ -76,7 +76,8 @@ fn what_a_particle_carries_in_and_out_is_its_kinetic_potential_and_elastic_energ
     let rotation = 0.5 * 0.4 * guest.mass * RADIUS * RADIUS * guest.angular_velocity.norm_squared();
     let kinetic = 0.5 * guest.mass * guest.velocity.norm_squared() + rotation;
     let force = 1000.0 * overlap - guest.mass * 9.81;
-    let discretisation = -0.125 * (simulation.time_step() * force).powi(2) / guest.mass;
+    let discretisation =
+        -0.125 * simulation.time_step() * simulation.time_step() * force * force / guest.mass;
     let elastic = 0.5 * 1000.0 * overlap * overlap;
     let expected = kinetic + elastic + guest.mass * 9.81 * height + discretisation;
     // Differences of sums that are some hundred times as large.

@@ -163,7 +163,12 @@ impl Twins {
                 WallMotion::Velocity(motion) => motion.velocity,
                 _ => Vector3::zero(),
             };
-            Plane { material: wall.material, point: wall.point, normal: wall.normal, velocity }
+            Plane {
+                material: wall.material,
+                point: wall.point,
+                normal: wall.plane_normal().unwrap(),
+                velocity,
+            }
         };
         let planes: Vec<Plane> = walls.iter().map(plane).collect();
         let periods = periodic.map(|periodic| periodic.then_some(EDGE));

@@ -7,7 +7,7 @@ use common::*;
 use pulvis_contact::normal::Interpolation;
 use pulvis_contact::{ContactModel, Linear, Luding};
 use pulvis_core::walls::{Cosine, PressureRamp, Servo, Velocity, Wall, WallMotion};
-use pulvis_core::{Background, Interactions, Setup, Simulation};
+use pulvis_core::{Background, Interactions, Setup, SetupError, Simulation};
 use pulvis_math::Vector3;
 
 const EDGE: f64 = 10.0 * RADIUS;
@@ -74,7 +74,7 @@ fn every_switch_leaves_the_closing_error_as_it_was() {
     check_switch("a wall gone", |simulation| simulation.set_wall_present(4, false));
     check_switch("a wall that starts to move", |simulation| {
         let velocity = vector(0.01, 0.0, 0.05);
-        simulation.set_wall_motion(4, WallMotion::Velocity(Velocity { velocity }));
+        simulation.set_wall_motion(4, WallMotion::Velocity(Velocity { velocity })).unwrap();
     });
     check_switch("a skin", |simulation| simulation.set_skin(0.05 * RADIUS).unwrap());
 }
@@ -105,7 +105,7 @@ fn a_switch_that_changes_nothing_changes_nothing() {
     let [mut plain, mut switched] = [0, 1].map(|_| powder(luding()));
     switched.set_interactions(interactions(luding(), luding())).unwrap();
     switched.set_time_step(switched.time_step()).unwrap();
-    switched.set_wall_motion(0, WallMotion::Fixed);
+    switched.set_wall_motion(0, WallMotion::Fixed).unwrap();
     switched.set_wall_present(1, true);
     assert!(switched.ledger().switched.abs() < 1e-14 * switched.ledger().scale);
     advance(&mut plain, 1_000);
@@ -150,9 +150,13 @@ fn a_wall_that_is_away_stands_still_and_begins_its_motion_anew() {
     assert!((simulation.walls()[0].point.z / RADIUS - 1.0).abs() < 1e-9);
     advance(&mut simulation, 500);
     assert!((simulation.walls()[0].point.z / (2.0 * RADIUS) - 1.0).abs() < 1e-12);
+    let velocity = vector(0.0, 0.0, 1.0);
+    simulation.set_wall_motion(0, WallMotion::Velocity(Velocity { velocity })).unwrap();
     let servo =
         Servo { pressure: PressureRamp { from: 1e3, to: 1e3, duration: 0.0 }, mass: 1e-6, damping: 0.0 };
-    simulation.set_wall_motion(0, WallMotion::Servo(servo));
+    // Without an area for the pressure to act on it cannot move so, and goes on as before.
+    let refused = simulation.set_wall_motion(0, WallMotion::Servo(servo));
+    assert_eq!(refused, Err(SetupError::NoArea { wall: 0 }));
     simulation.set_wall_present(0, false);
     let before = simulation.walls()[0].point;
     advance(&mut simulation, 100);

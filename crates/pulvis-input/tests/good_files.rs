@@ -126,9 +126,29 @@ fn a_box_has_no_walls_where_space_repeats_or_a_face_is_open() {
     assert_eq!(names, ["x-low", "x-high", "z-low", "ramp", "lid"]);
     let ramp = &hopper.walls[hopper.wall("ramp").unwrap()];
     // Up to rounding of the division by the length.
-    assert!((ramp.normal.norm() - 1.0).abs() < 1e-15);
+    let WallShape::Plane(Plane { normal }) = ramp.shape else { panic!("a plane") };
+    assert!((normal.norm() - 1.0).abs() < 1e-15);
     assert_eq!(hopper.walls[4].area, Some(5e-4));
     assert_eq!((hopper.stages[0].background.gravity.z, hopper.stages[1].background.gravity.z), (-9.81, 0.0));
+}
+
+#[test]
+fn cylinders_have_an_axis_a_radius_and_a_side_and_can_rotate() {
+    let scenario = good("drum.toml");
+    let cylinder = |number: usize| match scenario.walls[number].shape {
+        WallShape::Cylinder(cylinder) => cylinder,
+        WallShape::Plane(_) => panic!("a cylinder"),
+    };
+    let axis = pulvis_math::Vector3::new(0.0, 1.0, 0.0);
+    assert_eq!(cylinder(0), Cylinder { axis, radius: 0.02, side: CylinderSide::Inside });
+    assert_eq!(cylinder(1), Cylinder { axis: -axis, radius: 0.003, side: CylinderSide::Outside });
+    let distance = |number: usize, z: f64| scenario.walls[number].distance([0.0, 0.3, z].into());
+    assert!((distance(0, 0.015) - 0.005).abs() < 1e-17 && (distance(0, -0.025) + 0.005).abs() < 1e-17);
+    assert!((distance(1, 0.013) - 0.002).abs() < 1e-17 && (distance(1, 0.007) + 0.002).abs() < 1e-17);
+    let controls = &scenario.stages[0].controls;
+    let rotation =
+        |angular_velocity| WallControl::Motion(WallMotion::Rotation(Rotation { angular_velocity }));
+    assert_eq!(controls[..], [(0, rotation(10.0)), (1, rotation(-20.0))]);
 }
 
 #[test]

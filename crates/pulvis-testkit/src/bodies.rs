@@ -72,6 +72,7 @@ pub fn pair_motion(
         normal,
         overlap: radius_i + radius_j - distance,
         inverse_distance,
+        normal_rate: None,
         radius_i,
         radius_j,
         velocity: i.velocity - j.velocity,

@@ -2,11 +2,13 @@
 
 mod cosine;
 mod parameter;
+mod rotation;
 mod servo;
 mod velocity;
 
 pub use cosine::Cosine;
 pub use parameter::{InvalidMotion, Parameter, Presence, Range, Slot};
+pub use rotation::Rotation;
 pub use servo::{PressureRamp, Servo};
 pub use velocity::Velocity;
 
@@ -47,6 +49,16 @@ pub trait Motion {
     /// Displacement since the beginning at `time + time_step` [s], where it was `before` at `time` [m].
     fn displacement(&self, before: Vector3, _time: f64, _time_step: f64) -> Vector3 {
         before
+    }
+
+    /// Whether the wall must have an axis to rotate about.
+    fn needs_axis(&self) -> bool {
+        false
+    }
+
+    /// Angular velocity about the axis of the wall, by the right-hand rule [rad/s].
+    fn angular_velocity(&self) -> f64 {
+        0.0
     }
 
     /// Velocity at a time [s], [m/s].
@@ -151,6 +163,8 @@ motions! {
     "cosine" => Cosine;
     /// It follows a pressure.
     "servo" => Servo;
+    /// It rotates about its axis.
+    "rotation" => Rotation;
 }
 
 #[cfg(test)]

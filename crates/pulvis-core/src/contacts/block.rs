@@ -3,7 +3,9 @@
 use std::borrow::Cow;
 
 use pulvis_contact::{ContactEnergies, ContactModel, MemoryLayout};
-use pulvis_math::{F64Array, Mask, Simd8, Vector3};
+use pulvis_math::{F64Array, Mask, Simd8};
+
+use crate::walls::{WallFeature, WallForce};
 
 /// Eight contacts at a time.
 pub(crate) type F64x8 = F64Array<8>;
@@ -21,8 +23,8 @@ pub(crate) const FORCE_TORQUE_NUMBERS: u32 = 8;
 pub(crate) enum Partner {
     /// Other particles.
     Particle,
-    /// Walls. All contacts of a block are with the same one, whose index in the list of walls stands for the
-    /// rows of the second bodies.
+    /// Walls. All contacts of a block are with the same one; the number of its [`WallFeature`] stands for the rows
+    /// of the second bodies.
     Wall,
 }
 
@@ -65,14 +67,14 @@ pub(crate) struct ContactGroup {
     pub(crate) crosses_boundary: Vec<bool>,
     /// What the last sweep added up to, lane by lane.
     pub(crate) energies: ContactEnergies<F64x8>,
-    /// The forces of the last sweep on the first bodies [N], wall by wall; empty for particles.
-    pub(crate) wall_forces: Vec<Vector3>,
+    /// The forces and torques of the last sweep on the first bodies, wall by wall; empty for particles.
+    pub(crate) wall_forces: Vec<WallForce>,
 }
 
 /// A candidate contact as it is listed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate {
-    /// Rows of the bodies; of a wall its index.
+    /// Rows of the bodies; of a wall the number of its feature.
     pub(crate) rows: [u32; 2],
     /// Where their forces and torques are summed.
     pub(crate) sums: [u32; 2],
@@ -202,6 +204,12 @@ impl ContactGroup {
     pub(crate) fn columns(&self, block: usize) -> &[F64x8] {
         let columns = self.layout.columns();
         &self.memory[block * columns..(block + 1) * columns]
+    }
+
+    /// The index of the wall that the contacts of a block of walls are with.
+    #[inline(always)]
+    pub(crate) fn wall(&self, block: usize) -> usize {
+        WallFeature::from_number(self.second_row(block, 0)).wall()
     }
 
     /// How many contacts the block holds.

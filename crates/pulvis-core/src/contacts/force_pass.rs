@@ -6,10 +6,11 @@ use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use super::block::Partner;
 use super::chunk::{Chunk, HaloContribution};
 use super::deferred::DeferredChunks;
-use super::kernel::{self, Advance, KinematicColumns, Prefetch, WallMotionNow};
+use super::kernel::{self, Advance, KinematicColumns, Prefetch};
 use crate::particles::ForceTorque;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
+use crate::walls::WallNow;
 
 /// What a sweep over all contacts works on.
 #[derive(Clone, Copy)]
@@ -17,7 +18,7 @@ pub(crate) struct Sweep<'a> {
     /// Room for forces and torques that are not complete at once: for all rows, and for all halos behind them.
     pub(crate) forces_and_torques: Shared<'a, ForceTorque>,
     pub(crate) moving: KinematicColumns<'a>,
-    pub(crate) walls: &'a [WallMotionNow],
+    pub(crate) walls: &'a [WallNow],
     pub(crate) advance: &'a Advance,
     /// Whether `forces_and_torques` are to hold those on all rows at the end, as they were finished.
     pub(crate) keep: bool,

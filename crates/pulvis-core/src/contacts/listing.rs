@@ -1,6 +1,6 @@
 //! Listing the candidates of a chunk.
 
-use pulvis_math::{Packed4, Vector3};
+use pulvis_math::Packed4;
 
 use super::block::{Candidate, ContactGroup, Partner, WIDTH};
 use super::chunk::{Approach, Chunk};
@@ -11,6 +11,7 @@ use super::table::Surroundings;
 use crate::counting_sort::counting_sort;
 use crate::neighbours::{CellGrid, RowRangePair};
 use crate::phases::Phases;
+use crate::walls::{WallFeature, WallForce};
 
 /// Candidates are sorted into blocks by their gap over the thickest skin, up to these bounds and beyond: what touches
 /// now fills whole blocks, and blocks of what is far apart are passed over until something has moved.
@@ -163,22 +164,22 @@ impl Listing {
                         let number = memory.layout_number(&group);
                         (group, number)
                     });
-                group.wall_forces.resize(walls.len(), Vector3::zero());
-                let touch = wall.offset() + range;
+                group.wall_forces.resize(walls.len(), WallForce::default());
+                let feature = WallFeature::new(wall_number, 0);
                 candidates.clear();
                 for row in chunk.rows.clone().filter(|&row| particles.material[row] == material) {
                     let Packed4 { vector, scalar } = particles.position[row];
-                    let gap = vector.dot(wall.normal) - scalar - touch;
+                    let gap = wall.distance(vector) - scalar - range;
                     if gap < skin.of_walls() + (skin.positions()[row].scalar - scalar) {
                         let sum = (row - chunk.rows.start) as u32;
-                        let rows = [row as u32, wall_number as u32];
+                        let rows = [row as u32, feature.number()];
                         candidates.push(Candidate { rows, sums: [sum, 0], gap, crosses_boundary: false });
                     }
                 }
                 for block in candidates.chunks(WIDTH) {
                     group.push_block(block, |group, lane| {
                         let row = around.order[block[lane].rows[0] as usize];
-                        memory.find([row, wall_partner(wall_number)], group, *number)
+                        memory.find([row, wall_partner(feature)], group, *number)
                     });
                 }
             }

@@ -16,7 +16,7 @@ mod view;
 
 pub(crate) use force_pass::Sweep;
 pub use interactions::Interactions;
-pub(crate) use kernel::{Advance, KinematicColumns, WallMotionNow};
+pub(crate) use kernel::{Advance, KinematicColumns};
 pub(crate) use rebuild::MemoryStore;
 pub use records::{ContactRecords, MemoryError};
 pub(crate) use table::{ContactTable, Surroundings};

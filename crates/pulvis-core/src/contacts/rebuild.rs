@@ -7,6 +7,7 @@ use pulvis_contact::MemoryLayout;
 use super::block::{ContactGroup, Partner};
 use super::chunk::Chunk;
 use crate::thread_pool::ThreadPool;
+use crate::walls::WallFeature;
 
 /// The memory of all contacts that remember anything, by the rows that their bodies had when it was
 /// inputs: rows that follow each other are near each other, ids are not.
@@ -44,9 +45,9 @@ struct Entry {
     record: u32,
 }
 
-/// What stands for a wall where other contacts have the row of their second body.
-pub(crate) fn wall_partner(wall: usize) -> u32 {
-    u32::MAX - wall as u32
+/// What stands for a feature of a wall where other contacts have the row of their second body.
+pub(crate) fn wall_partner(feature: WallFeature) -> u32 {
+    u32::MAX - feature.number()
 }
 
 impl MemoryStore {
@@ -108,7 +109,7 @@ impl ChunkMemory {
                 let first = group.first_row(block, lane);
                 let partner = match group.partner {
                     Partner::Particle => group.second_row(block, lane),
-                    Partner::Wall => wall_partner(group.second_row(block, lane) as usize),
+                    Partner::Wall => wall_partner(WallFeature::from_number(group.second_row(block, lane))),
                 };
                 let index = first.min(partner) - self.first_row as u32;
                 unsorted.push(([index, first.max(partner)], Entry { layout, record: record as u32 }));

@@ -8,6 +8,7 @@ use thiserror::Error;
 use super::ContactTable;
 use super::block::{ContactGroup, Partner};
 use crate::particles::ParticleId;
+use crate::walls::WallFeature;
 
 /// What contacts of one normal law with the same columns of memory remember, one entry a contact. The sign of what
 /// they remember is that for the first body.
@@ -121,7 +122,11 @@ fn law_of(group: &ContactGroup) -> &'static str {
 }
 
 fn name_of((with_wall, _, second): Key) -> String {
-    if with_wall { format!("wall {second}") } else { format!("particle {second}") }
+    if with_wall {
+        format!("wall {}", WallFeature::from_number(second).wall())
+    } else {
+        format!("particle {second}")
+    }
 }
 
 /// The bodies of a contact, by their ids.

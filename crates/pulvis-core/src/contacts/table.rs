@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use pulvis_contact::ContactEnergies;
-use pulvis_math::{F64Array, InstructionSet, Vector3};
+use pulvis_math::{F64Array, InstructionSet};
 
 use super::Interactions;
 use super::block::ContactGroup;
@@ -16,7 +16,7 @@ use crate::neighbours::{CellGrid, Moved, Skin};
 use crate::particles::{ForceTorque, MaterialIndex, Particles};
 use crate::shared::Shared;
 use crate::thread_pool::ThreadPool;
-use crate::walls::Wall;
+use crate::walls::{Wall, WallForce};
 use pulvis_boundary::Images;
 
 /// The candidates and what they remember.
@@ -177,8 +177,8 @@ impl ContactTable {
         sum.sum_lanes()
     }
 
-    /// Adds the force of every wall on the particles to its index in `forces`.
-    pub(crate) fn add_wall_forces(&self, forces: &mut [Vector3]) {
+    /// Adds the force and torque of every wall on the particles to its index in `forces`.
+    pub(crate) fn add_wall_forces(&self, forces: &mut [WallForce]) {
         for group in self.groups() {
             for (sum, &force) in forces.iter_mut().zip(&group.wall_forces) {
                 *sum += force;

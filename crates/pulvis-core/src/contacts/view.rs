@@ -4,8 +4,8 @@ use pulvis_contact::{ContactKinematics, MemoryLayout, Pair};
 use pulvis_math::Vector3;
 
 use super::block::{ContactGroup, Partner};
-use super::kernel::WallMotionNow;
 use crate::particles::{ParticleId, Particles};
+use crate::walls::WallNow;
 use pulvis_boundary::Images;
 
 /// The second body of a contact.
@@ -26,8 +26,8 @@ pub struct ContactView<'a> {
     pub second: ContactPartner,
     /// Centre of the first body [m].
     pub centre_first: Vector3,
-    /// Centre of the second body at its image nearest to the first; of a wall, the foot of the
-    /// perpendicular [m].
+    /// Centre of the second body at its image nearest to the first; of a wall, the nearest point of its
+    /// surface [m].
     pub centre_second: Vector3,
     /// Overlap, negative where attraction acts at a distance [m].
     pub overlap: f64,
@@ -46,7 +46,7 @@ pub(crate) struct Views<'a> {
     pub(crate) particles: &'a Particles,
     pub(crate) images: Images,
     /// How walls lie and move.
-    pub(crate) walls: &'a [WallMotionNow],
+    pub(crate) walls: &'a [WallNow],
 }
 
 /// Hands every contact of a group that acts to `see`. The forces are computed anew from a copy of the
@@ -115,6 +115,7 @@ impl<'a> Views<'a> {
                     normal: separation * inverse_distance,
                     overlap: radius[i] + radius[j] - separation.norm(),
                     inverse_distance,
+                    normal_rate: None,
                     radius_i: radius[i],
                     radius_j: radius[j],
                     velocity: velocity(i) - velocity(j),
@@ -130,25 +131,28 @@ impl<'a> Views<'a> {
                 Some(Seen { motion, pair, first, second, centre_first: centre, centre_second })
             }
             Partner::Wall => {
-                let index = self.group.second_row(block, lane) as usize;
+                let index = self.group.wall(block);
                 let wall = self.walls.get(index)?;
-                let distance = centre.dot(wall.normal) - wall.offset;
-                let motion = ContactKinematics {
-                    normal: wall.normal,
-                    overlap: radius[i] - distance,
+                let surface = wall.surface(centre);
+                let turning = wall.angular_velocity().unwrap_or(Vector3::zero());
+                let mut motion = ContactKinematics {
+                    normal: surface.normal,
+                    overlap: radius[i] - surface.distance,
                     inverse_distance: 0.0,
+                    normal_rate: None,
                     radius_i: radius[i],
                     radius_j: 0.0,
-                    velocity: velocity(i) - wall.velocity,
-                    velocity_mid: velocity(i) - wall.velocity,
+                    velocity: velocity(i),
+                    velocity_mid: velocity(i),
                     angular_velocity_i: angular_velocity(i),
-                    angular_velocity_j: Vector3::zero(),
+                    angular_velocity_j: turning,
                     angular_velocity_i_mid: angular_velocity(i),
-                    angular_velocity_j_mid: Vector3::zero(),
+                    angular_velocity_j_mid: turning,
                 };
-                let pair = Pair::wall(mass[i], radius[i]);
+                wall.move_against(&surface, centre, &mut motion);
+                let pair = Pair::from_sums(1.0 / mass[i], 1.0 / radius[i] + surface.mean_curvature);
                 let second = ContactPartner::Wall(index);
-                let centre_second = centre - wall.normal * distance;
+                let centre_second = centre - surface.normal * surface.distance;
                 Some(Seen { motion, pair, first, second, centre_first: centre, centre_second })
             }
         }

@@ -7,7 +7,7 @@ use pulvis_math::{InstructionSet, Packed4, Vector3};
 use super::moved::{Moved, Survey};
 use crate::particles::Particles;
 use crate::thread_pool::ThreadPool;
-use crate::walls::Wall;
+use crate::walls::{Shape, Wall};
 
 /// How far particles and walls may move before candidates are listed anew, and where they were when that was done.
 ///
@@ -131,10 +131,11 @@ impl Skin {
         instructions.run(Survey { positions: &positions[rows.clone()], listed: &self.positions[rows] })
     }
 
-    /// The longest way of any wall since the list was made [m].
+    /// By how much any wall can have come nearer to anything since the list was made [m]. What rotates about its
+    /// axis of symmetry comes no nearer.
     pub(crate) fn moved_walls(&self, walls: &[Wall]) -> f64 {
-        let way = |(now, before): (&Wall, &Vector3)| (now.offset() - before.dot(now.normal)).abs();
-        walls.iter().zip(&self.walls).map(way).fold(0.0, f64::max)
+        let approach = |(now, before): (&Wall, &Vector3)| now.shape.approach(now.point - *before);
+        walls.iter().zip(&self.walls).map(approach).fold(0.0, f64::max)
     }
 
     /// Whether the list still holds, when so much is `left` of any particle's skin [m] and walls have moved

@@ -31,7 +31,7 @@ pub enum SetupError {
     /// A wall stands across a periodic direction: a particle that leaves through the boundary would
     /// come back on the wall's other side.
     #[error(
-        "wall {wall} stands across axis {axis}, which is periodic; its normal must have no part along a periodic axis"
+        "wall {wall} stands across axis {axis}, which is periodic; a plane's normal must have no part along a periodic axis, and a cylinder's axis must be along it"
     )]
     WallAcrossPeriod {
         /// Place of the wall in the list of walls.
@@ -44,6 +44,34 @@ pub enum SetupError {
     NoArea {
         /// Place of the wall in the list of walls.
         wall: usize,
+    },
+    /// A wall that is no plane is to follow a pressure.
+    #[error("wall {wall} follows a pressure, but is no plane")]
+    ServoNeedsPlane {
+        /// Place of the wall in the list of walls.
+        wall: usize,
+    },
+    /// A wall without an axis is to rotate.
+    #[error("wall {wall} rotates, but its shape has no axis")]
+    RotationNeedsAxis {
+        /// Place of the wall in the list of walls.
+        wall: usize,
+    },
+    /// A wall's shape cannot be.
+    #[error("wall `{name}`: {reason}")]
+    WallShape {
+        /// Name of the wall.
+        name: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// More walls than can be told apart.
+    #[error("{found} walls are more than {most}, the most that contacts can tell apart")]
+    TooManyWalls {
+        /// How many there are.
+        found: usize,
+        /// How many there may be.
+        most: usize,
     },
     /// The threads cannot be started.
     #[error("cannot start {0} threads; ask for fewer")]

@@ -51,7 +51,8 @@ impl Simulation {
             new.for_each(|new| column.values.extend_from_slice(&new.values));
         }
         self.take_in_particles();
-        if let Err(error) = self.check_models().and_then(|()| self.check_periods()) {
+        let checked = self.check_models().and_then(|()| self.check_walls());
+        if let Err(error) = checked.and_then(|()| self.check_periods()) {
             self.particles.truncate(before);
             self.particles.next_id = next;
             self.list_materials();

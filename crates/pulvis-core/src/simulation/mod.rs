@@ -14,14 +14,14 @@ pub use state::{ListState, ParticleState, State, StateError, WallRecord};
 
 use pulvis_math::{InstructionSet, Packed4, Vector3};
 
-use crate::contacts::{ContactTable, Interactions, MemoryStore, WallMotionNow};
+use crate::contacts::{ContactTable, Interactions, MemoryStore};
 use crate::integrator::Kicked;
 use crate::ledger::Running;
 use crate::neighbours::{Moved, Skin};
 use crate::particles::{MaterialIndex, Particle, Particles};
 use crate::phases::Phases;
 use crate::thread_pool::ThreadPool;
-use crate::walls::{Extent, FaceArea, Wall, WallState};
+use crate::walls::{Extent, FaceArea, Shape, Wall, WallFeature, WallForce, WallMotion, WallNow, WallState};
 use pulvis_boundary::Background;
 use pulvis_boundary::Domain;
 
@@ -73,8 +73,8 @@ pub struct Simulation {
     /// Scratch: what came out of the integration of each chunk.
     outcomes: Vec<Outcome>,
     /// Scratch: how the walls lie and move, and their forces on the particles, in this step.
-    walls_now: Vec<WallMotionNow>,
-    on_particles: Vec<Vector3>,
+    walls_now: Vec<WallNow>,
+    on_particles: Vec<WallForce>,
     skin: Skin,
     /// Whether the skin is the engine's own choice.
     chooses_skin: bool,
@@ -173,7 +173,7 @@ impl Simulation {
             materials: Vec::new(),
             outcomes: Vec::new(),
             walls_now: Vec::new(),
-            on_particles: vec![Vector3::zero(); walls.len()],
+            on_particles: vec![WallForce::default(); walls.len()],
             skin: Skin::default(),
             chooses_skin: true,
             mean_radius: 0.0,
@@ -220,15 +220,39 @@ impl Simulation {
     }
 
     fn check_walls(&self) -> Result<(), SetupError> {
+        if self.walls.len() > WallFeature::MOST_WALLS {
+            return Err(SetupError::TooManyWalls { found: self.walls.len(), most: WallFeature::MOST_WALLS });
+        }
+        let largest = self.particles.radius.iter().copied().fold(0.0, f64::max);
         for (index, wall) in self.walls.iter().enumerate() {
-            // Normals of rotated boxes come with rounding errors.
-            let across = |&axis: &usize| wall.normal[axis].abs() > 1e-12;
-            if let Some(axis) = (0..3).filter(|&axis| self.domain.period(axis).is_some()).find(across) {
+            wall.shape
+                .check(largest)
+                .map_err(|reason| SetupError::WallShape { name: wall.name.clone(), reason })?;
+            let varies = |&axis: &usize| {
+                let mut direction = Vector3::zero();
+                *direction.component_mut(axis) = 1.0;
+                self.domain.period(axis).is_some() && !wall.shape.is_invariant_along(direction)
+            };
+            if let Some(axis) = (0..3).find(varies) {
                 return Err(SetupError::WallAcrossPeriod { wall: index, axis });
             }
-            if wall.motion.law().needs_area() && wall.area == FaceArea::Unknown {
-                return Err(SetupError::NoArea { wall: index });
-            }
+            self.check_motion(index, &wall.motion)?;
+        }
+        Ok(())
+    }
+
+    /// Whether a wall can move in this way.
+    fn check_motion(&self, index: usize, motion: &WallMotion) -> Result<(), SetupError> {
+        let wall = &self.walls[index];
+        let motion = motion.law();
+        if motion.is_pushed() && wall.plane_normal().is_none() {
+            return Err(SetupError::ServoNeedsPlane { wall: index });
+        }
+        if motion.needs_area() && wall.area == FaceArea::Unknown {
+            return Err(SetupError::NoArea { wall: index });
+        }
+        if motion.needs_axis() && wall.shape.axis().is_none() {
+            return Err(SetupError::RotationNeedsAxis { wall: index });
         }
         Ok(())
     }
@@ -255,16 +279,16 @@ impl Simulation {
     /// The area over which a wall's force is spread [m²], where it is known.
     pub fn wall_area(&self, index: usize) -> Option<f64> {
         let extent = |extent: &Extent| match *extent {
-            Extent::Given(length) => length,
+            Extent::Given(length) => Some(length),
             Extent::Between(one, other) => {
                 let (one, other) = (&self.walls[one], &self.walls[other]);
-                (other.point - one.point).dot(one.normal).abs()
+                one.plane_normal().map(|normal| (other.point - one.point).dot(normal).abs())
             }
         };
         match &self.walls[index].area {
             FaceArea::Unknown => None,
             FaceArea::Given(area) => Some(*area),
-            FaceArea::Product([one, other]) => Some(extent(one) * extent(other)),
+            FaceArea::Product([one, other]) => Some(extent(one)? * extent(other)?),
         }
     }
 
@@ -280,7 +304,17 @@ impl Simulation {
 
     /// Force of the particles on a wall [N].
     pub fn wall_force(&self, index: usize) -> Vector3 {
-        self.wall_states[index].force
+        self.wall_states[index].load.force
+    }
+
+    /// Torque of the particles on a wall about the axis of its shape [N m], zero for shapes without an axis.
+    pub fn wall_torque(&self, index: usize) -> f64 {
+        self.wall_states[index].load.torque
+    }
+
+    /// Angular velocity of a wall about the axis of its shape [rad/s].
+    pub fn wall_angular_velocity(&self, index: usize) -> f64 {
+        self.wall_states[index].angular_velocity
     }
 
     /// Velocity of a wall [m/s].

@@ -60,7 +60,7 @@ impl Simulation {
     /// Hands every contact that acts to `see`, pairs first, then walls.
     pub fn for_each_contact(&self, see: &mut dyn FnMut(&ContactView)) {
         let walls = self.wall_states.iter().zip(&self.walls);
-        let walls: Vec<_> = walls.map(|(state, wall)| state.motion_at_rest(wall)).collect();
+        let walls: Vec<_> = walls.map(|(state, wall)| state.now_at_rest(wall)).collect();
         for group in self.contacts.groups() {
             let (particles, images) = (&self.particles, self.domain.images());
             view_contacts(Views { group, particles, images, walls: &walls }, see);

@@ -1,13 +1,12 @@
 //! Steps in time.
 
-use pulvis_math::Vector3;
-
 use super::{Simulation, StepError};
 use crate::contacts::{Advance, Sweep};
 use crate::integrator::{Columns, HalfKicks, Step};
 use crate::neighbours::Moved;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
+use crate::walls::WallForce;
 
 impl Simulation {
     /// One time step.
@@ -133,8 +132,8 @@ impl Simulation {
             }
             let area = self.wall_area(index);
             let since = self.time - self.wall_starts[index];
-            let force = -self.on_particles[index];
-            self.wall_states[index].finish(&self.walls[index], force, area, since, self.time_step);
+            let load = -self.on_particles[index];
+            self.wall_states[index].finish(&self.walls[index], load, area, since, self.time_step);
         }
     }
 
@@ -145,7 +144,7 @@ impl Simulation {
     fn forces_and_kick(&mut self, at_rest: bool, onwards: bool) -> f64 {
         self.walls_now.clear();
         for (wall, state) in self.walls.iter().zip(&self.wall_states) {
-            let motion = if at_rest { state.motion_at_rest(wall) } else { state.motion_now(wall) };
+            let motion = if at_rest { state.now_at_rest(wall) } else { state.now(wall) };
             self.walls_now.push(motion);
         }
         let time_step = if at_rest { 0.0 } else { self.time_step };
@@ -187,7 +186,7 @@ impl Simulation {
                 clock.lap(&mut outcome.seconds);
             }
         });
-        self.on_particles.fill(Vector3::zero());
+        self.on_particles.fill(WallForce::default());
         self.contacts.add_wall_forces(&mut self.on_particles);
         self.outcomes.iter().map(|outcome| outcome.kicked.power).sum()
     }
@@ -209,7 +208,7 @@ impl Simulation {
         let background_power = self.forces_and_kick(true, false);
         self.running.take_in(self.contacts.energies(), background_power, 0.0);
         for (state, &force) in self.wall_states.iter_mut().zip(&self.on_particles) {
-            state.force = -force;
+            state.load = -force;
         }
     }
 }

@@ -75,13 +75,18 @@ impl Simulation {
     }
 
     /// Lets a wall move in another way from now on.
-    pub fn set_wall_motion(&mut self, index: usize, motion: WallMotion) {
+    ///
+    /// # Errors
+    /// A wall of this shape cannot move so.
+    pub fn set_wall_motion(&mut self, index: usize, motion: WallMotion) -> Result<(), SetupError> {
+        self.check_motion(index, &motion)?;
         // Dashpots see the wall's new velocity at once.
         self.switch(|simulation| {
             simulation.walls[index].motion = motion;
             simulation.wall_states[index].start(&motion);
             simulation.wall_starts[index] = simulation.time;
         });
+        Ok(())
     }
 
     /// Takes a wall away, or puts it back where it stood, its motion beginning anew. A wall that is

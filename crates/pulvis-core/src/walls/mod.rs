@@ -1,13 +1,17 @@
-//! Plane walls and their state. What moves them is in `pulvis_boundary::motion`.
+//! Walls and their state. Their shapes and what moves them are in `pulvis-boundary`.
 
+mod feature;
+mod now;
 mod record;
 
-pub use pulvis_boundary::WallMotion;
-pub use pulvis_boundary::motion::{Cosine, PressureRamp, Push, Servo, Velocity};
+pub(crate) use feature::WallFeature;
+pub(crate) use now::{WallForce, WallNow};
+pub use pulvis_boundary::motion::{Cosine, PressureRamp, Push, Rotation, Servo, Velocity};
+pub use pulvis_boundary::{Cylinder, CylinderSide, Plane, WallMotion, WallShape};
+pub(crate) use pulvis_boundary::{Shape, Surface};
 
 use pulvis_math::Vector3;
 
-use crate::contacts::WallMotionNow;
 use crate::particles::MaterialIndex;
 
 /// The area over which a wall's force is spread.
@@ -30,16 +34,16 @@ pub enum Extent {
     Between(usize, usize),
 }
 
-/// A plane wall without end.
+/// A wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wall {
     /// Name, for people.
     pub name: String,
     /// Place in the list of materials.
     pub material: MaterialIndex,
-    /// Unit normal, pointing to the particles.
-    pub normal: Vector3,
-    /// A point of the plane [m].
+    /// What its surface looks like.
+    pub shape: WallShape,
+    /// Its reference point: a point of the plane or of the cylinder's axis [m].
     pub point: Vector3,
     /// How it moves.
     pub motion: WallMotion,
@@ -50,13 +54,23 @@ pub struct Wall {
 }
 
 impl Wall {
-    /// A wall that stands still, through `point` [m] with the unit normal `normal` that points to the
+    /// A plane that stands still, through `point` [m] with the unit normal `normal` that points to the
     /// particles.
     pub fn fixed(name: &str, material: MaterialIndex, point: Vector3, normal: Vector3) -> Self {
+        Self::of_shape(name, material, point, Plane { normal })
+    }
+
+    /// A wall of any shape that stands still, with its reference point [m].
+    pub fn of_shape(
+        name: &str,
+        material: MaterialIndex,
+        point: Vector3,
+        shape: impl Into<WallShape>,
+    ) -> Self {
         Self {
             name: name.to_owned(),
             material,
-            normal,
+            shape: shape.into(),
             point,
             motion: WallMotion::Fixed,
             area: FaceArea::Unknown,
@@ -64,9 +78,27 @@ impl Wall {
         }
     }
 
-    /// Place of the plane along its normal [m].
-    pub fn offset(&self) -> f64 {
-        self.point.dot(self.normal)
+    /// The unit normal of a plane; other shapes have none.
+    pub fn plane_normal(&self) -> Option<Vector3> {
+        match self.shape {
+            WallShape::Plane(Plane { normal }) => Some(normal),
+            WallShape::Cylinder(_) => None,
+        }
+    }
+
+    /// The direction in which forces move the wall: only planes are pushed.
+    fn direction_of_push(&self) -> Vector3 {
+        self.plane_normal().unwrap_or(Vector3::zero())
+    }
+
+    /// Place of a plane along its normal [m]; other shapes have none.
+    pub fn offset(&self) -> Option<f64> {
+        self.plane_normal().map(|normal| self.point.dot(normal))
+    }
+
+    /// Distance of a point from the surface, negative behind it [m].
+    pub fn distance(&self, from: Vector3) -> f64 {
+        self.shape.surface(self.point, from).distance
     }
 }
 
@@ -77,8 +109,10 @@ pub(crate) struct WallState {
     pub(crate) velocity: Vector3,
     velocity_mid: Vector3,
     velocity_predicted: Vector3,
-    /// Force of the particles on the wall [N].
-    pub(crate) force: Vector3,
+    /// Angular velocity about the axis of the shape [rad/s].
+    pub(crate) angular_velocity: f64,
+    /// Force and torque of the particles on the wall.
+    pub(crate) load: WallForce,
     /// Work done on the particles so far while the motion was prescribed [J].
     pub(crate) work_prescribed: f64,
     /// Work done on the particles so far under servo control [J].
@@ -93,15 +127,18 @@ impl WallState {
     /// from the velocity that it has.
     pub(crate) fn start(&mut self, motion: &WallMotion) {
         self.travelled = Vector3::zero();
-        if !motion.law().is_pushed() {
-            self.velocity = motion.law().velocity(0.0);
+        let motion = motion.law();
+        self.angular_velocity = motion.angular_velocity();
+        if !motion.is_pushed() {
+            self.velocity = motion.velocity(0.0);
         }
     }
 
     /// The wall is taken away: it stands still and nothing pushes it.
     pub(crate) fn stop(&mut self) {
         self.velocity = Vector3::zero();
-        self.force = Vector3::zero();
+        self.angular_velocity = 0.0;
+        self.load = WallForce::default();
     }
 
     /// Moves the wall over the step from `time` (since the motion began) to `time + time_step` [s].
@@ -113,7 +150,7 @@ impl WallState {
                 self.prescribe(travelled, motion.velocity(time + time_step), time_step);
             }
             Some(acceleration) => {
-                let half_kick = wall.normal * (0.5 * time_step * acceleration);
+                let half_kick = wall.direction_of_push() * (0.5 * time_step * acceleration);
                 self.velocity_mid = self.velocity + half_kick;
                 self.velocity_predicted = self.velocity_mid + half_kick;
                 self.displacement = self.velocity_mid * time_step;
@@ -130,47 +167,45 @@ impl WallState {
         self.velocity = velocity;
     }
 
-    /// Takes in the force of the particles at the end of the step, books the work done on them
+    /// Takes in the force and torque of the particles at the end of the step, books the work done on them
     /// (trapezoidal rule along the wall's path) and finishes the velocity of a servo.
     pub(crate) fn finish(
         &mut self,
         wall: &Wall,
-        force: Vector3,
+        load: WallForce,
         area: Option<f64>,
         time: f64,
         time_step: f64,
     ) {
-        let work = -0.5 * (self.force + force).dot(self.displacement);
-        self.force = force;
+        let turned = self.angular_velocity * time_step;
+        let along = (self.load.force + load.force).dot(self.displacement);
+        let work = -0.5 * (along + (self.load.torque + load.torque) * turned);
+        self.load = load;
         let push = self.push(wall, self.velocity_predicted, area, time + time_step);
         match wall.motion.law().acceleration(&push) {
             None => self.work_prescribed += work,
             Some(acceleration) => {
                 self.work_servo += work;
-                self.velocity = self.velocity_mid + wall.normal * (0.5 * time_step * acceleration);
+                let half_kick = wall.direction_of_push() * (0.5 * time_step * acceleration);
+                self.velocity = self.velocity_mid + half_kick;
             }
         }
     }
 
     /// What acts on the wall at `time` [s] since the motion began, where it has a `velocity` [m/s].
     fn push(&self, wall: &Wall, velocity: Vector3, area: Option<f64>, time: f64) -> Push {
-        let (force, speed) = (self.force.dot(wall.normal), velocity.dot(wall.normal));
+        let normal = wall.direction_of_push();
+        let (force, speed) = (self.load.force.dot(normal), velocity.dot(normal));
         Push { force, speed, area: area.unwrap_or(0.0), time }
     }
 
     /// What the contact loop needs to know at the end of the drift.
-    pub(crate) fn motion_now(&self, wall: &Wall) -> WallMotionNow {
-        WallMotionNow {
-            normal: wall.normal,
-            offset: wall.offset(),
-            velocity_mid: self.velocity_mid,
-            velocity: self.velocity_predicted,
-        }
+    pub(crate) fn now(&self, wall: &Wall) -> WallNow {
+        WallNow::new(wall, self.velocity_mid, self.velocity_predicted, self.angular_velocity)
     }
 
     /// The same before the first step: nothing has moved yet.
-    pub(crate) fn motion_at_rest(&self, wall: &Wall) -> WallMotionNow {
-        let (velocity_mid, velocity) = (self.velocity, self.velocity);
-        WallMotionNow { normal: wall.normal, offset: wall.offset(), velocity_mid, velocity }
+    pub(crate) fn now_at_rest(&self, wall: &Wall) -> WallNow {
+        WallNow::new(wall, self.velocity, self.velocity, self.angular_velocity)
     }
 }

@@ -1,6 +1,6 @@
 //! What a wall's motion keeps between steps, as numbers with names.
 
-use super::WallState;
+use super::{WallForce, WallState};
 use crate::columns::{NameError, NamedNumbers, NumberReader, NumberWriter};
 
 impl WallState {
@@ -10,7 +10,8 @@ impl WallState {
             velocity,
             velocity_mid,
             velocity_predicted,
-            force,
+            angular_velocity,
+            load: WallForce { force, torque },
             work_prescribed,
             work_servo,
             travelled,
@@ -20,7 +21,9 @@ impl WallState {
         writer.vector("velocity", *velocity);
         writer.vector("velocity_mid", *velocity_mid);
         writer.vector("velocity_predicted", *velocity_predicted);
+        writer.number("angular_velocity", *angular_velocity);
         writer.vector("force", *force);
+        writer.number("torque", *torque);
         writer.number("work_prescribed", *work_prescribed);
         writer.number("work_servo", *work_servo);
         writer.vector("travelled", *travelled);
@@ -34,7 +37,8 @@ impl WallState {
             velocity: reader.vector("velocity")?,
             velocity_mid: reader.vector("velocity_mid")?,
             velocity_predicted: reader.vector("velocity_predicted")?,
-            force: reader.vector("force")?,
+            angular_velocity: reader.number("angular_velocity")?,
+            load: WallForce { force: reader.vector("force")?, torque: reader.number("torque")? },
             work_prescribed: reader.number("work_prescribed")?,
             work_servo: reader.number("work_servo")?,
             travelled: reader.vector("travelled")?,

@@ -7,8 +7,8 @@ use crate::list::Vector;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use pulvis_boundary::WallMotion;
 use pulvis_boundary::motion::{Parameter, Presence, Range, Slot};
+use pulvis_boundary::{Shape, WallMotion, WallShape};
 
 /// What happens to a wall at the start of a stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,10 +64,8 @@ fn read_motion(
     for parameter in motion.parameters() {
         failure = read_parameter(table, parameter, &mut numbers).err().or(failure);
     }
-    if motion.law().needs_area() && wall.face.is_none() && wall.area.is_none() {
-        let found = format!("the wall {} has no area for the pressure to act on", wall.name);
-        let expected = format!("`area` in [walls.{}]", wall.name);
-        return Err(table.refuse("control", Problem::rule(found, expected)));
+    if let Some(problem) = unfit(&motion, wall) {
+        return Err(table.refuse("control", problem));
     }
     if let Some(reported) = failure {
         return Err(reported);
@@ -76,6 +74,25 @@ fn read_motion(
         Ok(()) => Ok(motion),
         Err(invalid) => Err(table.refuse(invalid.parameter, Problem::rule(invalid.found, invalid.expected))),
     }
+}
+
+/// Why a wall cannot move in this way.
+fn unfit(motion: &WallMotion, wall: &Wall) -> Option<Problem> {
+    let (motion, name) = (motion.law(), &wall.name);
+    let (kind, is_plane) = (wall.shape.name(), matches!(wall.shape, WallShape::Plane(_)));
+    let (found, expected) = if motion.is_pushed() && !is_plane {
+        let found = format!("the wall {name} is a {kind}, which no pressure can move");
+        (found, "a wall with `kind = \"plane\"`".to_owned())
+    } else if motion.needs_area() && wall.face.is_none() && wall.area.is_none() {
+        let found = format!("the wall {name} has no area for the pressure to act on");
+        (found, format!("`area` in [walls.{name}]"))
+    } else if motion.needs_axis() && wall.shape.axis().is_none() {
+        let found = format!("the wall {name} is a {kind}, which has no axis to rotate about");
+        (found, "a wall with `kind = \"cylinder\"`".to_owned())
+    } else {
+        return None;
+    };
+    Some(Problem::rule(found, expected))
 }
 
 /// Reads a parameter to where its value stands. `numbers` are those read before, by their keys.

@@ -51,6 +51,7 @@ mod switches;
 mod time;
 mod until;
 mod walk;
+mod wall_shape;
 mod walls;
 
 pub use crate::contact::NamedLaw;
@@ -62,8 +63,8 @@ pub use materials::Material;
 pub use output::{Dimensionless, Interval, OutputPlan, Snapshots};
 pub use particles::{ParticleGroup, VelocityPlan};
 pub use points::PointsError;
-pub use pulvis_boundary::motion::{Cosine, PressureRamp, Servo, Velocity};
-pub use pulvis_boundary::{Background, Cuboid, Domain, WallMotion};
+pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};
+pub use pulvis_boundary::{Background, Cuboid, Cylinder, CylinderSide, Domain, Plane, WallMotion, WallShape};
 pub use pulvis_packing::{Lattice, RadiusDistribution};
 pub use stages::Stage;
 pub use time::TimeStep;

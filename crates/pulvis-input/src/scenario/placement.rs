@@ -7,7 +7,7 @@ use super::walls::Wall;
 use crate::context::Reported;
 use crate::problem::Problem;
 use crate::reader::TableReader;
-use pulvis_boundary::{Cuboid, Domain};
+use pulvis_boundary::{Cuboid, Domain, WallShape};
 use pulvis_math::Vector3;
 
 /// Checks every group: centres lie on the inner side of all walls, and inside the domain along periodic
@@ -40,8 +40,8 @@ struct Point {
     slack: f64,
 }
 
-/// The points that decide whether a group is inside: walls are planes, so the corners of a block speak
-/// for all of it.
+/// The points that decide whether a group is inside. In front of planes and inside cylinders the corners of a block
+/// speak for all of it. A block around a post has its corners outside; there the run looks at every particle.
 fn points(group: &ParticleGroup) -> Vec<Point> {
     let corners = |what: &str, block: &Cuboid| -> Vec<Point> {
         let size = block.lower.norm().max(block.upper.norm());
@@ -98,7 +98,11 @@ fn behind_wall(point: &Point, wall: &Wall) -> Problem {
         rounded(-wall.distance(*at)),
         wall.name
     );
-    Problem::rule(found, "particles on the side to which the wall's normal points")
+    let expected = match &wall.shape {
+        WallShape::Plane(_) => "particles on the side to which the wall's normal points".to_owned(),
+        WallShape::Cylinder(cylinder) => format!("particles {} the cylinder", cylinder.side.name()),
+    };
+    Problem::rule(found, expected)
 }
 
 fn outside_domain(point: &Point, domain: &Domain) -> Option<Problem> {

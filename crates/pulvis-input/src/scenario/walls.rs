@@ -1,28 +1,28 @@
-//! Plane walls: the box, and further planes.
+//! Walls: the box, and further planes and cylinders.
 
 use super::axis::{Axis, BoxFace, Side};
 use super::domain::read_extent;
 use super::materials::{Material, read_material_name};
+use super::wall_shape::read_shape;
 use crate::context::{Location, Reported};
-use crate::list::{List, Vector};
+use crate::list::List;
 use crate::problem::Problem;
-use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::Name;
-use pulvis_boundary::{Cuboid, Domain};
-use pulvis_math::{Dimension, Vector3};
+use pulvis_boundary::{Cuboid, Cylinder, CylinderSide, Domain, Plane, Shape, WallShape};
+use pulvis_math::Vector3;
 
-/// A plane wall at the start of a run.
+/// A wall at the start of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wall {
     /// Its name, which no other wall has.
     pub name: String,
     /// Index of its material.
     pub material: usize,
-    /// A point of the plane [m].
+    /// A point of the plane or of the cylinder's axis [m].
     pub point: Vector3,
-    /// Unit vector at right angles to the plane, towards the particles [1].
-    pub normal: Vector3,
+    /// What its surface looks like.
+    pub shape: WallShape,
     /// The face of the box that this wall is, if it is one.
     pub face: Option<BoxFace>,
     /// Area on which a servo's pressure acts [m^2]. Of a face of the box it is always `None`: it follows
@@ -31,9 +31,9 @@ pub struct Wall {
 }
 
 impl Wall {
-    /// Distance of a point from the plane, positive on the particles' side [m].
+    /// Distance of a point from the surface, positive on the particles' side [m].
     pub fn distance(&self, point: Vector3) -> f64 {
-        (point - self.point).dot(self.normal)
+        self.shape.surface(self.point, point).distance
     }
 }
 
@@ -111,7 +111,7 @@ fn read_box(
             Side::Low => extent.lower,
             Side::High => extent.upper,
         },
-        normal: face.normal(),
+        shape: Plane { normal: face.normal() }.into(),
         face: Some(face),
         area: None,
     });
@@ -179,46 +179,64 @@ fn read_wall(
         Ok(())
     };
     let material = read_material_name(&mut table, "material", materials);
-    let point = table.required("point", Vector::of(Dimension::LENGTH));
-    let normal = table.required("normal", Vector::of(Dimension::NONE)).and_then(|normal| {
-        let normal = Vector3::from(normal);
-        // A vector that is of unit length already stays as it is, so that a resolved scenario reads back
-        // to the same bits.
-        let is_unit = (normal.norm_squared() - 1.0).abs() < 1e-14;
-        let direction = if is_unit { Some(normal) } else { normal.unit() };
-        direction.ok_or_else(|| {
-            table.refuse("normal", Problem::rule("the vector has no direction", "a vector that is not zero"))
-        })
-    });
-    let normal = normal.and_then(|normal| {
-        let periodic = domain.map_or([false; 3], |domain| domain.periodic);
-        match Axis::ALL.into_iter().find(|axis| periodic[axis.index()] && normal[axis.index()] != 0.0) {
-            Some(axis) => {
-                let found = format!("the wall cuts through {}, which is periodic", axis.name());
-                Err(table.refuse("normal", Problem::rule(found, "a plane along every periodic direction")))
-            }
-            None => Ok(normal),
-        }
-    });
-    let area = table.optional("area", QuantityRule::of(Dimension::new(0, 2, 0)).above(0.0));
+    let shape = read_shape(&mut table, domain);
     table.finish();
     named?;
-    let (material, point, normal, area) = (material?, point?.into(), normal?, area?);
-    Ok(Wall { name, material, point, normal, face: None, area })
+    let (material, (shape, point, area)) = (material?, shape?);
+    Ok(Wall { name, material, point, shape, face: None, area })
 }
 
 /// Two walls that coincide, or face away from each other so that no space is left between them.
-fn clash(plane: &Wall, wall: &Wall) -> Option<Problem> {
-    // Directions that are written as equal differ by no more than rounding.
-    let parallel = |sign: f64| (plane.normal - wall.normal * sign).norm() < 1e-12;
+fn clash(one: &Wall, other: &Wall) -> Option<Problem> {
+    match (&one.shape, &other.shape) {
+        (WallShape::Plane(plane), WallShape::Plane(plane_other)) => {
+            clash_of_planes((one, plane.normal), (other, plane_other.normal))
+        }
+        (WallShape::Cylinder(cylinder), WallShape::Cylinder(cylinder_other)) => {
+            clash_of_cylinders((one, cylinder), (other, cylinder_other))
+        }
+        _ => None,
+    }
+}
+
+/// Directions that are written as equal differ by no more than rounding.
+fn are_equal(one: Vector3, other: Vector3) -> bool {
+    (one - other).norm() < 1e-12
+}
+
+fn clash_of_planes((plane, normal): (&Wall, Vector3), (wall, other): (&Wall, Vector3)) -> Option<Problem> {
     let distance = wall.distance(plane.point);
     let names = format!("{} and {}", wall.name, plane.name);
-    if parallel(1.0) && distance == 0.0 {
+    if are_equal(normal, other) && distance == 0.0 {
         return Some(Problem::rule(format!("{names} are the same plane"), "each wall once"));
     }
-    if parallel(-1.0) && distance <= 0.0 {
+    if are_equal(normal, -other) && distance <= 0.0 {
         let found = format!("{names} overlap: they lie {} m behind each other", distance.abs());
         return Some(Problem::rule(found, "space between walls that face each other"));
     }
     None
+}
+
+/// Of cylinders with the same axis.
+fn clash_of_cylinders(
+    (wall, cylinder): (&Wall, &Cylinder),
+    (wall_other, other): (&Wall, &Cylinder),
+) -> Option<Problem> {
+    let parallel = are_equal(cylinder.axis, other.axis) || are_equal(cylinder.axis, -other.axis);
+    let apart = (wall.point - wall_other.point).tangential_to(other.axis).norm();
+    if !parallel || apart > 1e-12 * cylinder.radius {
+        return None;
+    }
+    let names = format!("{} and {}", wall_other.name, wall.name);
+    if cylinder.side == other.side {
+        let same = cylinder.radius == other.radius;
+        return same.then(|| Problem::rule(format!("{names} are the same cylinder"), "each wall once"));
+    }
+    let [inside, outside] =
+        if cylinder.side == CylinderSide::Inside { [cylinder, other] } else { [other, cylinder] };
+    let gap = inside.radius - outside.radius;
+    (gap <= 0.0).then(|| {
+        let found = format!("{names} overlap: they lie {} m behind each other", -gap);
+        Problem::rule(found, "space between walls that face each other")
+    })
 }

@@ -92,6 +92,7 @@ impl Dynamics {
             normal: along(1.0),
             overlap: Self::within(phase, motion[0]),
             inverse_distance: 0.0,
+            normal_rate: None,
             radius_i: 0.0,
             radius_j: 0.0,
             velocity: along(-motion[1]),

@@ -1,7 +1,7 @@
 //! What is measured of a running simulation: one row of the time series.
 
 use pulvis_core::{ContactPartner, Simulation};
-use pulvis_input::scenario::Scenario;
+use pulvis_input::scenario::{Scenario, WallShape};
 use pulvis_math::Vector3;
 
 use super::stage::{length, wall_force, wall_stress};
@@ -39,7 +39,11 @@ impl Measure {
             columns.extend(["length", "strain", "wall_stress"].map(|name| format!("{name}_{axis}")));
         }
         for wall in &scenario.walls {
-            columns.extend(["position", "force"].map(|name| format!("{name}_{}", wall.name)));
+            let names: &[&str] = match wall.shape {
+                WallShape::Plane(_) => &["position", "force"],
+                WallShape::Cylinder(_) => &["force_x", "force_y", "force_z", "torque"],
+            };
+            columns.extend(names.iter().map(|name| format!("{name}_{}", wall.name)));
         }
         let scaled = scenario.output.dimensionless.map(|plan| {
             columns.extend(AXES.iter().flat_map(|axis| [format!("D_{axis}"), format!("F_{axis}")]));
@@ -58,7 +62,8 @@ impl Measure {
     }
 
     /// The names of the columns. Energies [J], stresses [Pa], lengths [m], forces [N], compression
-    /// positive; `position_*` is the place of a plane along its normal.
+    /// positive; `position_*` is the place of a plane along its normal. Of a cylinder: the components of the force on
+    /// it, and the torque about its axis [N m].
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
@@ -99,7 +104,14 @@ impl Measure {
             row.extend([lengths[axis], strain, stress].map(|value| value.unwrap_or(f64::NAN)));
         }
         for (place, wall) in simulation.walls().iter().enumerate() {
-            row.extend([wall.offset(), -simulation.wall_force(place).dot(wall.normal)]);
+            let force = simulation.wall_force(place);
+            match wall.plane_normal() {
+                Some(normal) => row.extend([wall.point.dot(normal), -force.dot(normal)]),
+                None => {
+                    row.extend(force.to_array());
+                    row.push(simulation.wall_torque(place));
+                }
+            }
         }
         if let Some(scaled) = &self.scaled {
             for (axis, (now, reference)) in lengths.iter().zip(scaled.reference).enumerate() {

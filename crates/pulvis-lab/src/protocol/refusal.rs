@@ -24,6 +24,17 @@ pub(super) fn refuse_setup(scenario: &Scenario, error: &SetupError) -> PrepareEr
             let found = format!("there are {found} particles");
             refused(scenario, &paths, found, format!("{most} or fewer"), "take fewer particles")
         }
+        SetupError::WallShape { name, reason } => {
+            let paths = [format!("walls.{name}.radius"), format!("walls.{name}")];
+            let help = "enlarge the cylinder, or take smaller particles";
+            refused(
+                scenario,
+                &paths.each_ref().map(String::as_str),
+                reason,
+                "a wall that particles can meet",
+                help,
+            )
+        }
         SetupError::NoModel { one, other } => {
             let name = |index: MaterialIndex| scenario.materials[usize::from(index)].name.as_str();
             let (one, other) = (name(*one), name(*other));

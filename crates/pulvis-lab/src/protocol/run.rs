@@ -275,11 +275,11 @@ impl<'a> Run<'a> {
         for place in 0..simulation.walls().len() {
             let changed = plan.wall_changes.iter().any(|(wall, _)| *wall == place);
             if !changed && simulation.walls()[place].motion.law().duration().is_some() {
-                simulation.set_wall_motion(place, WallMotion::Fixed);
+                simulation.set_wall_motion(place, WallMotion::Fixed).map_err(failed)?;
             }
         }
         for (place, control) in &plan.wall_changes {
-            simulation.set_wall_motion(*place, control.motion().unwrap_or_default());
+            simulation.set_wall_motion(*place, control.motion().unwrap_or_default()).map_err(failed)?;
             if matches!(control, WallControl::Removed) {
                 simulation.set_wall_present(*place, false);
             }

@@ -137,7 +137,7 @@ pub fn between(scenario: &Scenario, contact: &ShortestContact) -> String {
 }
 
 fn wall(scenario: &Scenario, plan: &WallPlan) -> Wall {
-    let mut wall = Wall::fixed(&plan.name, plan.material as MaterialIndex, plan.point, plan.normal);
+    let mut wall = Wall::of_shape(&plan.name, plan.material as MaterialIndex, plan.point, plan.shape);
     wall.area = match (plan.area, plan.face) {
         (Some(area), _) => FaceArea::Given(area),
         (None, Some(face)) => {
@@ -182,7 +182,7 @@ pub(super) fn box_walls(scenario: &Scenario, axis: usize) -> [Option<usize>; 2] 
 fn check_start(scenario: &Scenario, particles: &[Particle], walls: &[Wall]) -> Result<(), PrepareError> {
     for (id, particle) in particles.iter().enumerate() {
         for wall in walls {
-            let depth = wall.offset() - particle.position.dot(wall.normal);
+            let depth = -wall.distance(particle.position);
             if depth >= 0.0 {
                 let [x, y, z] = particle.position.to_array();
                 let name = &wall.name;

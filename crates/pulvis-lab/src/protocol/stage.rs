@@ -175,7 +175,10 @@ pub(super) fn wall_force(scenario: &Scenario, simulation: &Simulation, axis: usi
         .into_iter()
         .flatten()
         .filter(|&place| simulation.walls()[place].present)
-        .map(|place| -simulation.wall_force(place).dot(simulation.walls()[place].normal))
+        .filter_map(|place| {
+            let normal = simulation.walls()[place].plane_normal()?;
+            Some(-simulation.wall_force(place).dot(normal))
+        })
         .collect();
     if forces.is_empty() { None } else { Some(forces.iter().sum::<f64>() / forces.len() as f64) }
 }

@@ -215,7 +215,7 @@ impl<'a> Bed<'a> {
 
     /// Time in which a wall crosses the empty part of the sample [s].
     fn pressed_in(&self, wall: usize, control: &WallControl) -> Option<f64> {
-        let way = self.way(self.simulation.walls()[wall].normal);
+        let way = self.way(self.simulation.walls()[wall].plane_normal()?);
         let WallControl::Motion(motion) = control else { return None };
         match motion {
             WallMotion::Servo(servo) => {

@@ -89,6 +89,7 @@ fn gathered(motions: &[ContactKinematics<f64>]) -> ContactKinematics<Eight> {
         normal: vector(|motion| motion.normal),
         overlap: number(|motion| motion.overlap),
         inverse_distance: number(|motion| motion.inverse_distance),
+        normal_rate: None,
         radius_i: number(|motion| motion.radius_i),
         radius_j: number(|motion| motion.radius_j),
         velocity: vector(|motion| motion.velocity),

@@ -54,10 +54,10 @@ pub(super) struct GatheredBlock<R> {
 
 /// A block that has been computed.
 #[derive(Clone, Copy)]
-struct ContactResponses<R> {
-    force: Vector3<R>,
+pub(super) struct ContactResponses<R> {
+    pub(super) force: Vector3<R>,
     torque_i: Vector3<R>,
-    torque_j: Vector3<R>,
+    pub(super) torque_j: Vector3<R>,
 }
 
 /// What the blocks of a group are computed with.
@@ -128,6 +128,7 @@ impl<R: Simd8> Batch<R> {
             normal: none,
             overlap: zero,
             inverse_distance: zero,
+            normal_rate: None,
             radius_i: zero,
             radius_j: zero,
             velocity: none,
@@ -203,10 +204,10 @@ impl<R: Simd8> Batch<R> {
         self.count
     }
 
-    /// A block, and the forces on its first bodies [N] once they have been computed.
+    /// A block, and what has been computed of it.
     #[inline(always)]
-    pub(super) fn force(&self, index: usize) -> (usize, Vector3<R>) {
-        (self.blocks[index].block, self.responses[index].force)
+    pub(super) fn response(&self, index: usize) -> (usize, &ContactResponses<R>) {
+        (self.blocks[index].block, &self.responses[index])
     }
 
     /// Adds the forces and torques to `sums`, at the `slots` of each block; the batch is empty afterwards.

@@ -8,7 +8,7 @@ mod walls;
 use std::ops::Range;
 
 use pulvis_contact::Viscosity;
-use pulvis_math::{InstructionSet, Packed4, Simd8, Vector3};
+use pulvis_math::{InstructionSet, Packed4, Simd8};
 
 use self::batch::{BlockSums, Response};
 use self::normal::Wants;
@@ -16,6 +16,7 @@ use super::block::{ContactGroup, Partner};
 use super::chunk::Approach;
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
+use crate::walls::WallNow;
 use pulvis_boundary::Images;
 
 /// The columns that contacts read. See [`Particles`](crate::Particles) for what the packed vectors hold.
@@ -39,19 +40,6 @@ impl KinematicColumns<'_> {
         self.velocity.prefetch(row);
         self.angular_velocity_mid.prefetch(row);
     }
-}
-
-/// A plane wall at the time of the positions.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct WallMotionNow {
-    /// Unit normal, pointing to the particles.
-    pub(crate) normal: Vector3,
-    /// Place of the plane along its normal [m].
-    pub(crate) offset: f64,
-    /// Velocity at mid-step [m/s].
-    pub(crate) velocity_mid: Vector3,
-    /// Velocity at the time of the positions [m/s].
-    pub(crate) velocity: Vector3,
 }
 
 /// Over which step bodies have moved, and how the loop is to run.
@@ -83,7 +71,7 @@ pub(crate) unsafe fn sweep(
     group: &mut ContactGroup,
     sums: &mut [ForceTorque],
     moving: KinematicColumns<'_>,
-    walls: &[WallMotionNow],
+    walls: &[WallNow],
     advance: &Advance,
     approach: Approach,
     prefetch: Prefetch<'_>,

@@ -3,17 +3,18 @@
 use pulvis_contact::{Pair, levels};
 use pulvis_math::{Kernel, Mask, Simd8, Vector3};
 
-use super::super::block::{PACKED4_NUMBERS, occupied_lanes};
-use super::batch::{Batch, BlockSums, gather};
+use super::super::block::occupied_lanes;
+use super::batch::{BATCH, Batch, BlockSums, gather};
 use super::normal::Pointed;
-use super::{Loop, WallMotionNow, finish, response, wants};
+use super::{Loop, finish, response, wants};
 use crate::shared::Shared;
+use crate::walls::{WallForce, WallNow};
 
 /// Runs the loop over a group of contacts with walls.
 ///
 /// # Safety
 /// As of [`sweep`](super::sweep).
-pub(super) unsafe fn sweep(contacts: Loop<'_>, walls: &[WallMotionNow]) {
+pub(super) unsafe fn sweep(contacts: Loop<'_>, walls: &[WallNow]) {
     let set = contacts.advance.instructions;
     set.run(WallLoop { contacts, walls });
 }
@@ -21,7 +22,7 @@ pub(super) unsafe fn sweep(contacts: Loop<'_>, walls: &[WallMotionNow]) {
 /// Contacts with walls are few: one loop does for all laws, called through pointers, and for all levels of resistance.
 struct WallLoop<'a> {
     contacts: Loop<'a>,
-    walls: &'a [WallMotionNow],
+    walls: &'a [WallNow],
 }
 
 impl Kernel for WallLoop<'_> {
@@ -38,9 +39,11 @@ impl Kernel for WallLoop<'_> {
         let call = Pointed::<R>::new(&normal, columns, advance.time_step, wants(group, advance));
         let mut response = response(call, group, advance, advance.ledger);
         let mut totals = BlockSums::<R>::new();
-        group.wall_forces.fill(Vector3::zero());
+        let any_turns = walls.iter().any(|wall| wall.angular_velocity().is_some());
+        group.wall_forces.fill(WallForce::default());
         // The forces of one wall at a time.
-        let (mut at_wall, mut total) = (0, Vector3::<R>::zero());
+        let (mut at_wall, mut force, mut torque) = (0, Vector3::<R>::zero(), R::zero());
+        let mut arms = [Vector3::<R>::zero(); BATCH];
         let mut batch = Batch::<R>::new();
         let blocks = group.rows.len();
         let mut next = 0;
@@ -51,12 +54,12 @@ impl Kernel for WallLoop<'_> {
                 if group.gap[block] > approach && !group.active[block] {
                     continue;
                 }
-                let [rows, [wall, ..]] = &group.rows[block].0;
-                let wall = walls[(wall / PACKED4_NUMBERS) as usize];
-                let normal = Vector3::<R>::splat(wall.normal);
+                let [rows, _] = &group.rows[block].0;
+                let wall = &walls[group.wall(block)];
                 // SAFETY (here and below): rows lie within the columns, as the caller of `sweep` vouches.
                 let (centre, radius) = unsafe { gather::<R>(moving.position, rows) };
-                let overlap = radius - (centre.dot(normal) - R::splat(wall.offset));
+                let surface = wall.surface(centre);
+                let overlap = radius - surface.distance;
                 let valid = occupied_lanes::<R>(group.occupancy[block]);
                 let overlap = R::select(valid, overlap, interaction_range + interaction_range - radius);
                 let acts = overlap.gt(interaction_range).any();
@@ -69,42 +72,52 @@ impl Kernel for WallLoop<'_> {
                 // What a wall has none of stays zero.
                 let inputs = batch.add();
                 inputs.block = block;
-                inputs.pair = Pair::wall_from_inverses(inverse_mass, inverse_radius);
+                inputs.pair = Pair::from_sums(inverse_mass, inverse_radius + surface.mean_curvature);
                 let motion = &mut inputs.motion;
-                (motion.normal, motion.overlap, motion.radius_i) = (normal, overlap, radius);
-                motion.velocity = velocity - Vector3::splat(wall.velocity);
-                motion.velocity_mid = mid - Vector3::splat(wall.velocity_mid);
+                (motion.normal, motion.overlap, motion.radius_i) = (surface.normal, overlap, radius);
+                (motion.velocity, motion.velocity_mid) = (velocity, mid);
+                let arm = wall.move_against(&surface, centre, motion);
                 if turns {
                     motion.angular_velocity_i_mid =
                         unsafe { gather::<R>(moving.angular_velocity_mid, rows) }.0;
                     if turning_dashpots {
                         motion.angular_velocity_i = unsafe { gather::<R>(moving.angular_velocity, rows) }.0;
                     }
+                    if any_turns {
+                        let angular_velocity = wall.angular_velocity().unwrap_or(Vector3::zero());
+                        motion.angular_velocity_j_mid = Vector3::splat(angular_velocity);
+                        motion.angular_velocity_j = motion.angular_velocity_j_mid;
+                    }
                 }
+                arms[batch.len() - 1] = arm;
             }
             // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.
             unsafe {
                 batch.respond::<_, { levels::ALL }, true>(&mut response, &mut group.memory, &mut totals);
             }
-            for index in 0..batch.len() {
-                let (block, force) = batch.force(index);
-                let wall = group.second_row(block, 0) as usize;
+            for (index, &arm) in arms.iter().enumerate().take(batch.len()) {
+                let (block, answer) = batch.response(index);
+                let wall = group.wall(block);
                 if wall != at_wall {
-                    group.wall_forces[at_wall] += sum_of(total);
-                    (at_wall, total) = (wall, Vector3::zero());
+                    group.wall_forces[at_wall] += sum_of(force, torque);
+                    (at_wall, force, torque) = (wall, Vector3::zero(), R::zero());
                 }
-                total += force;
+                force += answer.force;
+                if any_turns {
+                    torque += walls[wall].torque_on_particles(arm, answer.force, answer.torque_j);
+                }
             }
             // SAFETY: as the caller of `sweep` vouches.
             unsafe { batch.add_up::<{ levels::ALL }, false>(&group.sums, sums) };
         }
-        group.wall_forces[at_wall] += sum_of(total);
+        group.wall_forces[at_wall] += sum_of(force, torque);
         finish(group, &totals);
     }
 }
 
-/// The sum of the vectors in all lanes.
+/// The sum over all lanes.
 #[inline(always)]
-fn sum_of<R: Simd8>(vectors: Vector3<R>) -> Vector3 {
-    Vector3::new(vectors.x.sum_lanes(), vectors.y.sum_lanes(), vectors.z.sum_lanes())
+fn sum_of<R: Simd8>(force: Vector3<R>, torque: R) -> WallForce {
+    let force = Vector3::new(force.x.sum_lanes(), force.y.sum_lanes(), force.z.sum_lanes());
+    WallForce { force, torque: torque.sum_lanes() }
 }

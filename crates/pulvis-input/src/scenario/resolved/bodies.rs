@@ -2,7 +2,7 @@
 
 use super::writer::{Writer, key, list, number, quantity, text, vector};
 use crate::scenario::{
-    Arrangement, BoxFace, Cuboid, ParticleGroup, RadiusDistribution, Scenario, VelocityPlan, Wall,
+    Arrangement, BoxFace, Cuboid, ParticleGroup, RadiusDistribution, Scenario, VelocityPlan, Wall, WallShape,
 };
 use pulvis_math::Dimension;
 
@@ -32,8 +32,16 @@ impl Scenario {
         for wall in self.walls.iter().filter(|wall| wall.face.is_none()) {
             writer.table(&format!("walls.{}", key(&wall.name)));
             writer.key("material", self.material_text(wall.material));
+            writer.key("kind", text(wall.shape.name()));
             writer.key("point", vector(wall.point, Dimension::LENGTH));
-            writer.key("normal", vector(wall.normal, Dimension::NONE));
+            match &wall.shape {
+                WallShape::Plane(plane) => writer.key("normal", vector(plane.normal, Dimension::NONE)),
+                WallShape::Cylinder(cylinder) => {
+                    writer.key("axis", vector(cylinder.axis, Dimension::NONE));
+                    writer.key("radius", quantity(cylinder.radius, Dimension::LENGTH));
+                    writer.key("side", text(cylinder.side.name()));
+                }
+            }
             if let Some(area) = wall.area {
                 writer.key("area", quantity(area, Dimension::LENGTH * Dimension::LENGTH));
             }
