@@ -20,7 +20,7 @@ mod time_step;
 pub mod walls;
 
 pub use columns::{NameError, NamedColumn};
-pub use contacts::{ContactPartner, ContactRecords, ContactView, Interactions, MemoryError};
+pub use contacts::{ContactPartner, ContactRecords, ContactTotals, ContactView, Interactions, MemoryError};
 pub use ledger::Ledger;
 pub use particles::{MaterialIndex, Particle, ParticleId, Particles, Vectors};
 pub use phases::Phases;

@@ -7,6 +7,8 @@ use pulvis_math::{F64Array, Mask, Simd8};
 
 use crate::walls::{WallFeature, WallForce};
 
+use super::totals::GroupTotals;
+
 /// Eight contacts at a time.
 pub(crate) type F64x8 = F64Array<8>;
 
@@ -67,6 +69,8 @@ pub(crate) struct ContactGroup {
     pub(crate) crosses_boundary: Vec<bool>,
     /// What the last sweep added up to, lane by lane.
     pub(crate) energies: ContactEnergies<F64x8>,
+    /// What is seen of the contacts in the last pass of an advance.
+    pub(crate) totals: GroupTotals<F64x8>,
     /// The forces and torques of the last sweep on the first bodies, wall by wall; empty for particles.
     pub(crate) wall_forces: Vec<WallForce>,
 }
@@ -94,7 +98,7 @@ impl ContactGroup {
     ) -> Self {
         let layout = model.memory_layout();
         let rate_squared = 0.0;
-        let energies = ContactEnergies::default();
+        let (energies, totals) = (ContactEnergies::default(), GroupTotals::default());
         let Some(mut group) = spare else {
             return Self {
                 model,
@@ -111,6 +115,7 @@ impl ContactGroup {
                 gap: Vec::new(),
                 batches: 0,
                 energies,
+                totals,
                 wall_forces: Vec::new(),
             };
         };
@@ -122,7 +127,7 @@ impl ContactGroup {
         group.crosses_boundary.clear();
         group.gap.clear();
         group.wall_forces.clear();
-        Self { model, layout, interaction_range, rate_squared, partner, energies, ..group }
+        Self { model, layout, interaction_range, rate_squared, partner, energies, totals, ..group }
     }
 
     /// Number of candidate contacts.

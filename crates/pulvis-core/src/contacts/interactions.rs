@@ -9,9 +9,23 @@ use crate::particles::MaterialIndex;
 pub struct Interactions {
     materials: usize,
     models: Vec<Option<ContactModel>>,
-    /// How far beyond touching the contacts of each group act [m], between the largest bodies that there are.
-    ranges: Vec<f64>,
+    /// The pairs of materials that can meet among the particles and walls that there are.
+    groups: Vec<Group>,
+    /// The group of each pair of materials.
+    group_of: Vec<u32>,
 }
+
+/// A pair of materials that can meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Group {
+    /// Its index in the table of models.
+    pair: usize,
+    /// How far beyond touching its contacts act [m], between the largest bodies that there are.
+    range: f64,
+}
+
+/// The group of materials that never meet.
+const NO_GROUP: u32 = u32::MAX;
 
 impl Interactions {
     /// No model yet for any pair of `materials` materials.
@@ -19,7 +33,8 @@ impl Interactions {
         Self {
             materials,
             models: vec![None; materials * materials],
-            ranges: vec![0.0; materials * materials],
+            groups: Vec::new(),
+            group_of: vec![NO_GROUP; materials * materials],
         }
     }
 
@@ -29,12 +44,11 @@ impl Interactions {
         if needed > self.materials {
             let mut grown = Self::new(needed);
             for (index, known) in self.models.iter().enumerate() {
-                let moved = index / self.materials * needed + index % self.materials;
-                (grown.models[moved], grown.ranges[moved]) = (*known, self.ranges[index]);
+                grown.models[index / self.materials * needed + index % self.materials] = *known;
             }
             *self = grown;
         }
-        let index = self.group(one, other);
+        let index = self.pair(one, other);
         self.models[index] = Some(model);
     }
 
@@ -42,24 +56,30 @@ impl Interactions {
     pub fn get(&self, one: MaterialIndex, other: MaterialIndex) -> Option<&ContactModel> {
         // Beyond the table, the index would be that of another pair.
         let listed = usize::from(one.max(other)) < self.materials;
-        if listed { self.models[self.group(one, other)].as_ref() } else { None }
+        if listed { self.models[self.pair(one, other)].as_ref() } else { None }
     }
 
-    /// How many groups of pairs there can be.
+    /// How many groups of pairs there are. Those that no particle or wall is of take no room.
     pub(crate) fn groups(&self) -> usize {
-        self.models.len()
+        self.groups.len()
     }
 
-    /// The group of a pair of materials, the same in either order.
+    /// The group of a pair of materials that there are, the same in either order.
     #[inline(always)]
     pub(crate) fn group(&self, one: MaterialIndex, other: MaterialIndex) -> usize {
+        self.group_of[self.pair(one, other)] as usize
+    }
+
+    /// The index of a pair of materials in the table of models, the same in either order.
+    #[inline(always)]
+    fn pair(&self, one: MaterialIndex, other: MaterialIndex) -> usize {
         let (low, high) = if one <= other { (one, other) } else { (other, one) };
         usize::from(low) * self.materials + usize::from(high)
     }
 
     /// The model of a group.
     pub(crate) fn model(&self, group: usize) -> Option<&ContactModel> {
-        self.models[group].as_ref()
+        self.models[self.groups[group].pair].as_ref()
     }
 
     /// All models.
@@ -67,32 +87,48 @@ impl Interactions {
         self.models.iter().flatten()
     }
 
-    /// Takes in the largest radius of the particles of each material [m], on which the range of some laws depends; a
-    /// material without particles is one of walls.
-    pub(crate) fn fit(&mut self, largest_radii: &[(MaterialIndex, f64)]) {
+    /// Takes in the materials that there are: those of particles, with the largest radius of each [m], and those of
+    /// walls.
+    pub(crate) fn fit(&mut self, largest_radii: &[(MaterialIndex, f64)], walls: &[MaterialIndex]) {
         let radius = |material: usize| {
             largest_radii.iter().find(|(known, _)| usize::from(*known) == material).map(|(_, radius)| *radius)
         };
-        for (group, model) in self.models.iter().enumerate() {
-            let Some(model) = model else { continue };
-            let (one, other) = (radius(group / self.materials), radius(group % self.materials));
-            let between = one.zip(other).map(|(one, other)| Pair::spheres(1.0, 1.0, one, other));
-            // Either material may be that of a wall, at which the effective radius is largest.
-            let at_walls = [one, other].into_iter().flatten().map(|radius| Pair::wall(1.0, radius));
-            let ranges = at_walls.chain(between).map(|pair| model.interaction_range(&pair));
-            self.ranges[group] = ranges.fold(0.0, f64::max);
+        let of_wall = |material: usize| walls.iter().any(|known| usize::from(*known) == material);
+        let there: Vec<usize> =
+            (0..self.materials).filter(|&material| radius(material).is_some() || of_wall(material)).collect();
+        self.groups.clear();
+        self.group_of.fill(NO_GROUP);
+        for (index, &low) in there.iter().enumerate() {
+            for &high in &there[index..] {
+                let radii = [radius(low), radius(high)];
+                if radii == [None, None] {
+                    continue;
+                }
+                let pair = low * self.materials + high;
+                self.group_of[pair] = self.groups.len() as u32;
+                let range = self.models[pair].as_ref().map_or(0.0, |model| longest_range(model, radii));
+                self.groups.push(Group { pair, range });
+            }
         }
     }
 
     /// How far beyond touching the contacts of a group act [m].
     pub(crate) fn range(&self, group: usize) -> f64 {
-        self.ranges[group]
+        self.groups[group].range
     }
 
     /// The longest range of all groups [m].
     pub(crate) fn longest_range(&self) -> f64 {
-        self.ranges.iter().copied().fold(0.0, f64::max)
+        self.groups.iter().map(|group| group.range).fold(0.0, f64::max)
     }
+}
+
+/// How far beyond touching a model acts [m] between bodies of two materials with these largest radii [m], `None` for
+/// walls alone. Either material may be that of a wall, too, at which the effective radius is largest.
+fn longest_range(model: &ContactModel, [one, other]: [Option<f64>; 2]) -> f64 {
+    let between = one.zip(other).map(|(one, other)| Pair::spheres(1.0, 1.0, one, other));
+    let at_walls = [one, other].into_iter().flatten().map(|radius| Pair::wall(1.0, radius));
+    at_walls.chain(between).map(|pair| model.interaction_range(&pair)).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

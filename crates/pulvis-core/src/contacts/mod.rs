@@ -12,6 +12,7 @@ mod records;
 mod row_set;
 mod search;
 mod table;
+mod totals;
 mod view;
 
 pub(crate) use force_pass::Sweep;
@@ -20,5 +21,6 @@ pub(crate) use kernel::{Advance, KinematicColumns};
 pub(crate) use rebuild::MemoryStore;
 pub use records::{ContactRecords, MemoryError};
 pub(crate) use table::{ContactTable, Surroundings};
+pub use totals::ContactTotals;
 pub use view::{ContactPartner, ContactView};
 pub(crate) use view::{Views, view_contacts};

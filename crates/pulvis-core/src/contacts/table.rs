@@ -6,12 +6,13 @@ use pulvis_contact::ContactEnergies;
 use pulvis_math::{F64Array, InstructionSet};
 
 use super::Interactions;
-use super::block::ContactGroup;
+use super::block::{ContactGroup, Partner};
 use super::chunk::{Approach, Chunk, HaloContribution, cut};
 use super::deferred::DeferredChunks;
 use super::force_pass::{DependencyCounter, ForcePass, Halos, Sums, Sweep};
 use super::listing::{Listing, Sources};
 use super::rebuild::MemoryStore;
+use super::totals::ContactTotals;
 use crate::neighbours::{CellGrid, Moved, Skin};
 use crate::particles::{ForceTorque, MaterialIndex, Particles};
 use crate::shared::Shared;
@@ -166,6 +167,20 @@ impl ContactTable {
                 unsafe { pass.finish_stored(number) };
             }
         });
+    }
+
+    /// What is seen of all contacts, group by group: the same for any number of threads.
+    pub(crate) fn totals(&self) -> ContactTotals {
+        let mut sum = ContactTotals::default();
+        for group in self.groups() {
+            let (touching, overlap_max, virial) = group.totals.sums();
+            let (pairs, at_walls) = match group.partner {
+                Partner::Particle => (touching, 0.0),
+                Partner::Wall => (0.0, touching),
+            };
+            sum += ContactTotals { pairs, at_walls, overlap_max, virial };
+        }
+        sum
     }
 
     /// The sum of all contacts' energies, group by group: the same for any number of threads.

@@ -200,7 +200,8 @@ impl Simulation {
                 largest[index].1 = largest[index].1.max(radius);
             }
         }
-        self.interactions.fit(&largest);
+        let walls: Vec<MaterialIndex> = self.walls.iter().map(|wall| wall.material).collect();
+        self.interactions.fit(&largest, &walls);
     }
 
     fn check_models(&self) -> Result<(), SetupError> {

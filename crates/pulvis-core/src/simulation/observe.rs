@@ -1,7 +1,7 @@
 //! What can be seen of a simulation: the ledger and the contacts.
 
 use super::Simulation;
-use crate::contacts::{ContactView, Views, view_contacts};
+use crate::contacts::{ContactTotals, ContactView, Views, view_contacts};
 use crate::ledger::Ledger;
 
 impl Simulation {
@@ -55,6 +55,11 @@ impl Simulation {
         self.running.scale = self.running.scale.max(turnover);
         ledger.scale = self.running.scale;
         ledger
+    }
+
+    /// Sums over all contacts, as the loops have added them up at the end of the last advance.
+    pub fn contact_totals(&self) -> ContactTotals {
+        self.contacts.totals()
     }
 
     /// Hands every contact that acts to `see`, pairs first, then walls.

@@ -1,8 +1,7 @@
 //! What is measured of a running simulation: one row of the time series.
 
-use pulvis_core::{ContactPartner, Simulation};
+use pulvis_core::Simulation;
 use pulvis_input::scenario::{Scenario, WallShape};
-use pulvis_math::Vector3;
 
 use super::stage::{length, wall_force, wall_stress};
 
@@ -88,7 +87,7 @@ impl Measure {
         row.extend([ledger.kinetic(), ledger.elastic(), ledger.dissipated(), error, ledger.relative_error()]);
         let lengths = [0, 1, 2].map(|axis| length(scenario, simulation, axis));
         let volume = lengths.iter().map(|length| length.unwrap_or(f64::NAN)).product::<f64>();
-        let contacts = ContactSums::of(simulation);
+        let contacts = simulation.contact_totals();
         let count = simulation.particles().len() as f64;
         row.extend([
             contacts.pairs,
@@ -97,7 +96,7 @@ impl Measure {
             contacts.overlap_max,
             simulation.particles().total_volume() / volume,
         ]);
-        row.extend(contacts.force_times_branch.to_array().map(|sum| sum / volume));
+        row.extend([0, 1, 2].map(|axis| contacts.virial[axis][axis] / volume));
         for axis in 0..3 {
             let strain = lengths[axis].zip(start_lengths[axis]).map(|(now, start)| now / start - 1.0);
             let stress = wall_stress(scenario, simulation, axis);
@@ -122,34 +121,5 @@ impl Measure {
             }
         }
         row
-    }
-}
-
-/// Sums over all contacts.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct ContactSums {
-    pairs: f64,
-    at_walls: f64,
-    overlap_max: f64,
-    /// Σ f_k l_k for each axis k over all contacts, compression positive [J]: over the volume,
-    /// the diagonal of the contacts' stress.
-    force_times_branch: Vector3,
-}
-
-impl ContactSums {
-    pub(super) fn of(simulation: &Simulation) -> Self {
-        let mut sums = Self::default();
-        simulation.for_each_contact(&mut |contact| {
-            let touching = f64::from(u8::from(contact.overlap > 0.0));
-            sums.overlap_max = sums.overlap_max.max(contact.overlap);
-            let branch = contact.centre_first - contact.centre_second;
-            let (force, [x, y, z]) = (contact.force, branch.to_array());
-            sums.force_times_branch += Vector3::new(force.x * x, force.y * y, force.z * z);
-            match contact.second {
-                ContactPartner::Particle(_) => sums.pairs += touching,
-                ContactPartner::Wall(_) => sums.at_walls += touching,
-            }
-        });
-        sums
     }
 }

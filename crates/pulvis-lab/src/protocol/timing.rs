@@ -9,7 +9,7 @@ use pulvis_core::{Particle, Simulation};
 use pulvis_input::scenario::{Scenario, WallControl};
 use pulvis_math::Vector3;
 
-use super::measure::{ContactSums, Measure};
+use super::measure::Measure;
 use super::packed::{Density, packing};
 use super::run::sensible_threads;
 use super::setup::{Prepared, StagePlan};
@@ -17,17 +17,6 @@ use super::stage::length;
 
 /// Solid fraction at which a sample that is compacted becomes a packing [1].
 const PACKED: f64 = 0.6;
-
-/// Wall-clock times of what a run does over and over [s].
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Costs {
-    /// A step of the sample as it starts.
-    pub start_step: f64,
-    /// A row of the time series at the start.
-    pub start_row: f64,
-    /// A row of a packing.
-    pub packed_row: f64,
-}
 
 /// Wall-clock times of a stage [s].
 #[derive(Clone, Copy, Debug)]
@@ -51,21 +40,19 @@ pub(super) fn stage_costs(
     // The system may refuse threads; the trial then takes one.
     let _ = simulation.set_threads(threads);
     let measure = Measure::new(scenario, simulation);
-    let start_row = seconds_of(|| measure.row(scenario, simulation, 1, [None; 3]));
-    let start_contacts = seconds_of(|| ContactSums::of(simulation));
-    let is_packed = 2.0 * touching(simulation) as f64 > 3.0 * prepared.particles.len() as f64;
+    // The loops over contacts add up what a row needs of them: packed or not, a row costs the same.
+    let row = seconds_of(|| measure.row(scenario, simulation, 1, [None; 3]));
+    let is_packed = 2.0 * simulation.contact_totals().pairs > 3.0 * prepared.particles.len() as f64;
     let start_step = seconds_of_step(&mut prepared.simulation);
-    let mut costs = Costs { start_step, start_row, packed_row: start_row };
     let mut packed_steps: Vec<(&StagePlan, f64)> = Vec::new();
     let mut compacted = is_packed;
     let mut all = Vec::with_capacity(prepared.stages.len());
     for (number, plan) in prepared.stages.iter().enumerate() {
         let known = packed_steps.iter().find(|(known, _)| known.interactions == plan.interactions);
         let packed_step = known.map(|(_, step)| *step).unwrap_or_else(|| {
-            let trial = PackedTrial::of(&prepared.particles, plan, threads);
-            costs.packed_row = costs.packed_row.max(start_row + trial.contacts - start_contacts);
-            packed_steps.push((plan, trial.step.max(start_step)));
-            trial.step.max(start_step)
+            let trial = packed_step(&prepared.particles, plan, threads);
+            packed_steps.push((plan, trial.max(start_step)));
+            trial.max(start_step)
         });
         let share = match (compacted, compactions[number]) {
             (true, _) => 0.0,
@@ -77,37 +64,19 @@ pub(super) fn stage_costs(
                 0.5 * share
             }
         };
-        let blend = |start: f64, packed: f64| share * start + (1.0 - share) * packed;
-        all.push(StageCosts {
-            step: blend(costs.start_step, packed_step),
-            row: blend(costs.start_row, costs.packed_row),
-        });
+        all.push(StageCosts { step: share * start_step + (1.0 - share) * packed_step, row });
     }
     all
 }
 
-/// What a packing of the particles costs [s].
-struct PackedTrial {
-    step: f64,
-    contacts: f64,
-}
-
-impl PackedTrial {
-    fn of(particles: &[Particle], plan: &StagePlan, threads: usize) -> Self {
-        let count = particles.len();
-        let trial = packing(particles, count, &plan.interactions, Density::Settled, plan.time_step);
-        let Some(mut trial) = trial else { return Self { step: 0.0, contacts: 0.0 } };
-        let _ = trial.set_threads(threads);
-        let scale = count as f64 / trial.particles().len() as f64;
-        let contacts = seconds_of(|| ContactSums::of(&trial));
-        Self { step: scale * seconds_of_step(&mut trial), contacts: scale * contacts }
-    }
-}
-
-fn touching(simulation: &Simulation) -> usize {
-    let mut touching = 0;
-    simulation.for_each_contact(&mut |contact| touching += usize::from(contact.overlap > 0.0));
-    touching
+/// What a step costs in a packing of the particles [s]; zero where there is none.
+fn packed_step(particles: &[Particle], plan: &StagePlan, threads: usize) -> f64 {
+    let count = particles.len();
+    let trial = packing(particles, count, &plan.interactions, Density::Settled, plan.time_step);
+    let Some(mut trial) = trial else { return 0.0 };
+    let _ = trial.set_threads(threads);
+    let scale = count as f64 / trial.particles().len() as f64;
+    scale * seconds_of_step(&mut trial)
 }
 
 /// Wall-clock time of a step [s]: the lower quartile of many short batches, so that moments in which the

@@ -6,6 +6,7 @@ use pulvis_contact::{
 use pulvis_math::{F64Array, Packed4, Simd4, Simd4Pair, Simd8, Vector3};
 
 use super::super::block::{LaneIndices, WIDTH};
+use super::super::totals::GroupTotals;
 use super::normal::NormalCall;
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
@@ -73,12 +74,16 @@ pub(super) struct Response<C> {
     pub(super) ledger: bool,
     /// Whether what contacts store is asked for, beside what they lose.
     pub(super) stored: bool,
+    /// Whether somebody looks at the contacts.
+    pub(super) observed: bool,
 }
 
 /// What the blocks of a group add up to.
 #[derive(Clone, Copy)]
 pub(super) struct BlockSums<R> {
     pub(super) energies: ContactEnergies<R>,
+    /// What is seen of the contacts, where somebody looks.
+    pub(super) totals: GroupTotals<R>,
     /// The largest k/m_r of the contacts [1/s²], where it is watched.
     pub(super) rate_squared: R,
 }
@@ -86,7 +91,7 @@ pub(super) struct BlockSums<R> {
 impl<R: Simd8> BlockSums<R> {
     #[inline(always)]
     pub(super) fn new() -> Self {
-        Self { energies: ContactEnergies::default(), rate_squared: R::zero() }
+        Self { energies: ContactEnergies::default(), totals: GroupTotals::default(), rate_squared: R::zero() }
     }
 }
 
@@ -187,6 +192,10 @@ impl<R: Simd8> Batch<R> {
             };
             if let Some(stiffness) = response.call.stiffness(index) {
                 totals.rate_squared = totals.rate_squared.max(stiffness * pair.inverse_reduced_mass());
+            }
+            if response.observed {
+                let length = motion.radius_i + motion.radius_j - motion.overlap;
+                totals.totals.add(motion.overlap, motion.normal, length, answer.force);
             }
             if LEDGER && response.ledger {
                 totals.energies.add_dissipated::<RESISTANCE>(&answer.energies, response.with_memory);

@@ -95,7 +95,9 @@ fn response<C>(call: C, group: &ContactGroup, advance: &Advance, ledger: bool) -
     let (laws, slots) = (group.model.laws, *group.layout.slots());
     let with_memory = laws.remembers_normal_motion(&slots);
     let Advance { time_step, stored, .. } = *advance;
-    Response { call, laws, slots, time_step, with_memory, ledger, stored }
+    // Both are asked for at the end of an advance.
+    let observed = stored;
+    Response { call, laws, slots, time_step, with_memory, ledger, stored, observed }
 }
 
 /// Which answers of a normal law the loop over a group looks at.
@@ -116,6 +118,7 @@ fn wants(group: &ContactGroup, advance: &Advance) -> Wants {
 #[inline(always)]
 fn finish<R: Simd8>(group: &mut ContactGroup, totals: &BlockSums<R>) {
     group.energies = totals.energies.to_array();
+    group.totals = totals.totals.to_array();
     let rates = totals.rate_squared.to_array();
     // A NaN among the stiffnesses shows in the energies and forces.
     group.rate_squared = rates.0.iter().copied().fold(0.0, f64::max);

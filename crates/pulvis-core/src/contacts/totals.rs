@@ -1,0 +1,88 @@
+//! Sums over all contacts: what the loops add up when somebody looks.
+
+use std::ops::AddAssign;
+
+use pulvis_math::{F64Array, Real, Simd8, Vector3};
+
+/// Sums over all contacts at the end of the last advance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactTotals {
+    /// Touching contacts between particles [1].
+    pub pairs: f64,
+    /// Touching contacts with walls [1].
+    pub at_walls: f64,
+    /// The largest overlap; zero where nothing touches, NaN where one is [m].
+    pub overlap_max: f64,
+    /// Σ f_k l_m over all contacts, the one with walls among them, for the force f on the first body and the branch l
+    /// from the second to the first: over the volume, the stress of the contacts, compression positive (Love-Weber)
+    /// [J].
+    pub virial: [[f64; 3]; 3],
+}
+
+impl AddAssign for ContactTotals {
+    fn add_assign(&mut self, other: Self) {
+        self.pairs += other.pairs;
+        self.at_walls += other.at_walls;
+        let larger = other.overlap_max > self.overlap_max || other.overlap_max.is_nan();
+        self.overlap_max = if larger { other.overlap_max } else { self.overlap_max };
+        for (row, others) in self.virial.iter_mut().zip(other.virial) {
+            for (sum, value) in row.iter_mut().zip(others) {
+                *sum += value;
+            }
+        }
+    }
+}
+
+/// What the blocks of a group add up to, lane by lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GroupTotals<R> {
+    touching: R,
+    overlap_max: R,
+    virial: [Vector3<R>; 3],
+}
+
+// Not derived: what is derived is not inlined by force.
+impl<R: Real> Default for GroupTotals<R> {
+    #[inline(always)]
+    fn default() -> Self {
+        Self { touching: R::zero(), overlap_max: R::zero(), virial: [Vector3::zero(); 3] }
+    }
+}
+
+impl<R: Simd8> GroupTotals<R> {
+    /// Takes in eight contacts with the forces [N] on their first bodies, along branches of the given lengths [m].
+    #[inline(always)]
+    pub(crate) fn add(&mut self, overlap: R, normal: Vector3<R>, length: R, force: Vector3<R>) {
+        let touching = overlap.gt(R::zero());
+        self.touching += R::one().keep_where(touching);
+        // A NaN is kept: it is not below anything.
+        let lower = overlap.le(self.overlap_max);
+        self.overlap_max = R::select(lower, self.overlap_max, overlap);
+        let branch = normal * length;
+        for (row, component) in self.virial.iter_mut().zip([force.x, force.y, force.z]) {
+            *row += branch * component;
+        }
+    }
+
+    /// Lane by lane, in memory.
+    #[inline(always)]
+    pub(crate) fn to_array(self) -> GroupTotals<F64Array<8>> {
+        let [x, y, z] = self.virial;
+        let in_memory = |row: Vector3<R>| Vector3::new(row.x.to_array(), row.y.to_array(), row.z.to_array());
+        GroupTotals {
+            touching: self.touching.to_array(),
+            overlap_max: self.overlap_max.to_array(),
+            virial: [in_memory(x), in_memory(y), in_memory(z)],
+        }
+    }
+}
+
+impl GroupTotals<F64Array<8>> {
+    /// Contacts that touch, the largest overlap [m], and the sums of force times branch [J].
+    pub(crate) fn sums(&self) -> (f64, f64, [[f64; 3]; 3]) {
+        let larger = |one: f64, other: f64| if other > one || other.is_nan() { other } else { one };
+        let overlap_max = self.overlap_max.0.iter().copied().fold(0.0, larger);
+        let along = |row: &Vector3<F64Array<8>>| [row.x.sum_lanes(), row.y.sum_lanes(), row.z.sum_lanes()];
+        (self.touching.sum_lanes(), overlap_max, [0, 1, 2].map(|row| along(&self.virial[row])))
+    }
+}
