@@ -202,7 +202,7 @@ impl ContactLaws {
                 viscous,
                 attraction_force,
             );
-            let step = Resistance::new(&self.conventions, inputs, &elastic, reference);
+            let step = Resistance::new::<N>(&self.conventions, inputs, &elastic, reference);
             if let Some(friction) = &self.sliding {
                 let start = slots.sliding::<RESISTANCE>(N::COLUMNS);
                 step.slide::<N, C>(friction, start, columns, &mut response);

@@ -28,6 +28,7 @@ pub(crate) struct Resistance<'a, R: Real> {
     friction_reference: R,
     overlap: R,
     overlap_mid: R,
+    normal_rate: Option<Vector3<R>>,
     normal_mid: Vector3<R>,
     sideways_mid: Vector3<R>,
     /// How long the contact was closed in this step [s], zero for an open one; and for how long it was not.
@@ -41,7 +42,7 @@ impl<'a, R: Real> Resistance<'a, R> {
     /// The step that led to `inputs`, in which the normal law gave the answer `normal`; friction refers to the normal
     /// force `friction_reference` [N].
     #[inline(always)]
-    pub(crate) fn new(
+    pub(crate) fn new<N: NormalSource<R>>(
         conventions: &'a Conventions,
         inputs: ContactInputs<'a, R>,
         normal: &NormalResponse<R>,
@@ -65,7 +66,9 @@ impl<'a, R: Real> Resistance<'a, R> {
         let half_turn = half * motion.inverse_distance;
         let mut normal_mid = motion.normal - sideways * half_turn;
         let mut sideways_mid = sideways * (R::one() + half_turn * opening);
-        if let Some(rate) = motion.normal_rate {
+        // Loops for common contacts have no walls, curved ones least of all.
+        let normal_rate = if N::COMMON { None } else { motion.normal_rate };
+        if let Some(rate) = normal_rate {
             normal_mid = motion.normal - rate * half;
             sideways_mid = sideways + rate * (half * opening);
         }
@@ -78,6 +81,7 @@ impl<'a, R: Real> Resistance<'a, R> {
             friction_reference: friction_reference.keep_where(in_contact),
             overlap,
             overlap_mid: overlap + half * opening,
+            normal_rate,
             normal_mid,
             sideways_mid,
             elapsed,
@@ -183,7 +187,7 @@ impl<'a, R: Real> Resistance<'a, R> {
             SpringRotation::Project => (before.tangential_to(normal), displacement),
             SpringRotation::Twist => {
                 let half = R::splat(0.5);
-                let turned = match motion.normal_rate {
+                let turned = match self.normal_rate {
                     None => self.sideways_mid * (motion.inverse_distance * self.elapsed),
                     Some(rate) => rate * self.elapsed,
                 };
@@ -195,7 +199,7 @@ impl<'a, R: Real> Resistance<'a, R> {
                 (twisted(before, normal, turned, twist), seen)
             }
             SpringRotation::Rate => {
-                let along = match motion.normal_rate {
+                let along = match self.normal_rate {
                     None => before.dot(motion.velocity_mid) * (motion.inverse_distance * self.elapsed),
                     Some(rate) => before.dot(rate) * self.elapsed,
                 };
