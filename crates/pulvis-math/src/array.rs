@@ -181,6 +181,9 @@ impl<const N: usize> Real for F64Array<N> {
         }
         self
     }
+    fn cbrt(self) -> Self {
+        Self(self.0.map(elementary::cbrt))
+    }
     #[inline(always)]
     fn min(mut self, other: Self) -> Self {
         for lane in 0..N {

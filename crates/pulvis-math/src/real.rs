@@ -59,6 +59,8 @@ pub trait Real:
     /// `self` raised to `exponent`, lane by lane (slow: not vectorised), with the same bits on
     /// every machine ([`elementary`]).
     fn powf(self, exponent: f64) -> Self;
+    /// Cube root, lane by lane as [`powf`](Self::powf), in a third of its time.
+    fn cbrt(self) -> Self;
     /// The smaller of two numbers (`other` where either is NaN).
     fn min(self, other: Self) -> Self;
     /// The larger of two numbers (`other` where either is NaN).
@@ -154,6 +156,10 @@ impl Real for f64 {
     #[inline(always)]
     fn powf(self, exponent: f64) -> Self {
         elementary::powf(self, exponent)
+    }
+    #[inline(always)]
+    fn cbrt(self) -> Self {
+        elementary::cbrt(self)
     }
     // `if a < b` and not `f64::min`: one instruction, where the standard function needs three for
     // its rule about NaN.

@@ -309,6 +309,7 @@ mod tests {
                 x.min(y),
                 x.max(y),
                 x.abs().powf(1.5),
+                x.cbrt(),
                 flag(x.lt(y)),
                 flag(x.le(y)),
                 flag(x.gt(y)),

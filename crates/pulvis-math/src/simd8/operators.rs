@@ -116,6 +116,9 @@ macro_rules! lane_by_lane {
         fn powf(self, exponent: f64) -> Self {
             Self::load(&F64Array(self.to_array().map(|number| $crate::elementary::powf(number, exponent))))
         }
+        fn cbrt(self) -> Self {
+            Self::load(&F64Array(self.to_array().map($crate::elementary::cbrt)))
+        }
     };
 }
 
