@@ -6,8 +6,8 @@ mod common;
 use common::*;
 use pulvis_contact::NonContact;
 use pulvis_contact::noncontact::Reversible;
-use pulvis_core::walls::{PressureRamp, Servo, Wall, WallMotion};
-use pulvis_core::{Domain, Interactions, Particle, Setup, SetupError, Simulation, StepError};
+use pulvis_core::walls::{Cosine, Extent, FaceArea, PressureRamp, Servo, Velocity, Wall, WallMotion};
+use pulvis_core::{Background, Domain, Interactions, Particle, Setup, SetupError, Simulation, StepError};
 use pulvis_math::Vector3;
 
 fn one() -> Setup {
@@ -108,9 +108,12 @@ fn a_wall_that_follows_a_pressure_needs_an_area() {
 fn a_particle_whose_position_is_no_number_is_reported_lost() {
     let mut setup = one();
     setup.particles.push(sphere(vector(5.0 * RADIUS, 0.0, 0.0), Vector3::zero(), RADIUS));
-    setup.particles.push(sphere(vector(9.0 * RADIUS, 0.0, 0.0), vector(0.0, f64::NAN, 0.0), RADIUS));
+    setup.particles.push(sphere(vector(9.0 * RADIUS, 0.0, 0.0), vector(0.0, 1.0, 0.0), RADIUS));
+    // More drag than a step can follow; what does not move feels none of it.
+    setup.background.drag = 1e308;
     let mut simulation = Simulation::new(setup).unwrap();
-    assert_eq!(simulation.step(), Err(StepError::Lost { id: 2, step: 1, time: 0.0 }));
+    let error = simulation.advance(10).unwrap_err();
+    assert!(matches!(error, StepError::Lost { id: 2, .. }), "{error}");
 }
 
 #[test]
@@ -127,4 +130,93 @@ fn a_system_without_particles_runs() {
     advance(&mut empty, 10);
     assert_eq!(empty.ledger().relative_error(), 0.0);
     assert_eq!(empty.candidates(), 0);
+}
+
+/// The quantity that is refused when the only particle is changed.
+fn refused_particle(change: impl FnOnce(&mut Particle)) -> &'static str {
+    let mut setup = one();
+    change(&mut setup.particles[0]);
+    match refused(setup) {
+        SetupError::Particle { index: 0, quantity, .. } => quantity,
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn particles_with_numbers_that_cannot_be_are_refused() {
+    for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
+        assert_eq!(refused_particle(|particle| particle.radius = bad), "radius [m]");
+        assert_eq!(refused_particle(|particle| particle.mass = bad), "mass [kg]");
+    }
+    for bad in [f64::NAN, f64::NEG_INFINITY] {
+        assert_eq!(refused_particle(|particle| particle.position.z = bad), "position [m]");
+        assert_eq!(refused_particle(|particle| particle.velocity.y = bad), "velocity [m/s]");
+        let spinning = |particle: &mut Particle| particle.angular_velocity.x = bad;
+        assert_eq!(refused_particle(spinning), "angular velocity [rad/s]");
+    }
+    let mut setup = one();
+    setup.particles[0].radius = -1.0;
+    let message = refused(setup).to_string();
+    assert_eq!(message, "particle 0: radius [m] is -1, expected a finite number greater than zero");
+}
+
+#[test]
+fn particles_that_cannot_be_are_not_inserted_either() {
+    let mut simulation = Simulation::new(one()).unwrap();
+    let mut particle = one().particles[0];
+    particle.mass = f64::NAN;
+    let error = simulation.insert(&[one().particles[0], particle]).unwrap_err();
+    assert!(matches!(error, SetupError::Particle { index: 1, quantity: "mass [kg]", .. }), "{error}");
+    assert_eq!(simulation.particles().len(), 1);
+    advance(&mut simulation, 3);
+}
+
+/// The quantity that is refused when a floor is changed.
+fn refused_wall(change: impl FnOnce(&mut Wall)) -> &'static str {
+    let mut wall = floor();
+    change(&mut wall);
+    match refused(Setup { walls: vec![floor(), wall], ..one() }) {
+        SetupError::Wall { index: 1, quantity, .. } => quantity,
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn walls_with_numbers_that_cannot_be_are_refused() {
+    assert_eq!(refused_wall(|wall| wall.point.x = f64::INFINITY), "point [m]");
+    assert_eq!(refused_wall(|wall| wall.area = FaceArea::Given(-1.0)), "area [m²]");
+    let face = FaceArea::Product([Extent::Given(1.0), Extent::Given(f64::NAN)]);
+    assert_eq!(refused_wall(|wall| wall.area = face), "extent of the face [m]");
+    let servo = |pressure, mass, damping| WallMotion::Servo(Servo { pressure, mass, damping });
+    let pressure = PressureRamp { from: 0.0, to: 1.0, duration: 1.0 };
+    for (motion, quantity) in [
+        (servo(pressure, 0.0, 0.0), "mass"),
+        (servo(pressure, 1.0, -1.0), "damping"),
+        (servo(PressureRamp { to: f64::NAN, ..pressure }, 1.0, 0.0), "pressure"),
+        (servo(PressureRamp { duration: -1.0, ..pressure }, 1.0, 0.0), "ramp"),
+        (WallMotion::Velocity(Velocity { velocity: vector(f64::NAN, 0.0, 0.0) }), "velocity"),
+        (WallMotion::Cosine(Cosine { displacement: Vector3::zero(), period: 0.0, cycles: 1.0 }), "period"),
+    ] {
+        assert_eq!(refused_wall(|wall| wall.motion = motion), quantity);
+    }
+}
+
+#[test]
+fn a_face_that_ranges_up_to_a_wall_that_is_not_there_is_refused() {
+    let area = FaceArea::Product([Extent::Given(1.0), Extent::Between(0, 2)]);
+    let error = refused(Setup { walls: vec![floor(), Wall { area, ..floor() }], ..one() });
+    assert_eq!(error, SetupError::NoSuchWall { index: 1, other: 2, walls: 2 });
+}
+
+#[test]
+fn gravity_and_drag_that_cannot_be_are_refused() {
+    let gravity = Background { gravity: vector(0.0, f64::NAN, 0.0), ..Background::default() };
+    let drag = Background { drag: -1.0, ..Background::default() };
+    let rotational_drag = Background { rotational_drag: f64::INFINITY, ..Background::default() };
+    for (background, named) in
+        [(gravity, "gravity [m/s²]"), (drag, "drag [kg/s]"), (rotational_drag, "rotational drag [kg/s]")]
+    {
+        let error = refused(Setup { background, ..one() });
+        assert!(matches!(error, SetupError::Background { quantity, .. } if quantity == named), "{error}");
+    }
 }

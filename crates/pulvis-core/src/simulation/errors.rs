@@ -8,6 +8,50 @@ use crate::particles::ParticleId;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SetupError {
+    /// A particle has a number that no particle can have.
+    #[error("particle {index}: {quantity} is {found}, expected {expected}")]
+    Particle {
+        /// Index in the list of particles.
+        index: usize,
+        /// Which quantity, and its unit.
+        quantity: &'static str,
+        /// The number; of a vector, the first component that cannot be.
+        found: f64,
+        /// What it must be.
+        expected: &'static str,
+    },
+    /// A wall has a number that no wall can have.
+    #[error("wall {index}: {quantity} is {found}, expected {expected}")]
+    Wall {
+        /// Index in the list of walls.
+        index: usize,
+        /// Which quantity; a parameter of its motion by the key that it has in a scenario.
+        quantity: &'static str,
+        /// The number; of a vector, the first component that cannot be.
+        found: f64,
+        /// What it must be.
+        expected: &'static str,
+    },
+    /// The face of a wall ranges up to a wall that is not there.
+    #[error("wall {index}: its face ranges up to wall {other}, but there are {walls} walls, counted from 0")]
+    NoSuchWall {
+        /// Index in the list of walls.
+        index: usize,
+        /// The index that is too large.
+        other: usize,
+        /// How many walls there are.
+        walls: usize,
+    },
+    /// Gravity or drag is a number that cannot be.
+    #[error("{quantity} is {found}, expected {expected}")]
+    Background {
+        /// Which quantity, and its unit.
+        quantity: &'static str,
+        /// The number; of a vector, the first component that cannot be.
+        found: f64,
+        /// What it must be.
+        expected: &'static str,
+    },
     /// Two bodies can meet for which there is no contact model.
     #[error("no contact model for materials {one} and {other}, which can meet")]
     NoModel {

@@ -1,6 +1,6 @@
 //! Particles that come and go between steps.
 
-use super::{Simulation, check_count};
+use super::{Simulation, check_count, checks};
 use crate::columns::NamedColumn;
 use crate::particles::{Particle, ParticleId};
 use crate::region::Region;
@@ -34,6 +34,7 @@ impl Simulation {
         if particles.is_empty() {
             return Ok(Vec::new());
         }
+        checks::check_particles(particles)?;
         let before = self.particles.len();
         check_count(before + particles.len())?;
         let next = self.particles.next_id;

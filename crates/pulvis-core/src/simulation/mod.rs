@@ -1,5 +1,6 @@
 //! Many bodies, one step after another.
 
+mod checks;
 mod columns;
 mod errors;
 mod insertion;
@@ -117,7 +118,12 @@ impl Simulation {
     pub const MOST_PARTICLES: usize = MOST_PARTICLES;
 
     /// Sets the simulation up and computes the forces of its initial state.
+    ///
+    /// # Errors
+    /// Numbers that no particle, wall, gravity or drag can have; materials that can meet without a contact model; walls
+    /// across a periodic direction; servo walls without an area; periods that are too short.
     pub fn new(setup: Setup) -> Result<Self, SetupError> {
+        checks::check_setup(&setup)?;
         let Setup { particles, interactions, walls, domain, background, time_step } = setup;
         if !(time_step > 0.0 && time_step.is_finite()) {
             return Err(SetupError::TimeStep(time_step));

@@ -46,6 +46,7 @@ pub struct StagePlan {
 pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
     // Before anything is allocated for them.
     refuse_too_many(scenario)?;
+    check_materials(scenario)?;
     let domain = scenario.domain.unwrap_or(Domain::unbounded());
     let particles = generate(scenario, &domain)?;
     let walls: Vec<Wall> = scenario.walls.iter().map(|plan| wall(scenario, plan)).collect();
@@ -63,6 +64,16 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
     let simulation = Simulation::new(setup).map_err(|error| refuse_setup(scenario, &error))?;
     check_overlaps(scenario, &simulation)?;
     Ok(Prepared { simulation, stages, particles })
+}
+
+/// Refuses more materials than the engine can number; every index fits from here on.
+fn check_materials(scenario: &Scenario) -> Result<(), PrepareError> {
+    let (found, most) = (scenario.materials.len(), usize::from(MaterialIndex::MAX) + 1);
+    if found <= most {
+        return Ok(());
+    }
+    let problem = Problem::rule(format!("{found} materials"), format!("at most {most}"));
+    Err(scenario.mistake(&["materials"], problem, "remove materials that nothing is made of").into())
 }
 
 fn stages(

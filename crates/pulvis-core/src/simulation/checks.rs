@@ -1,0 +1,123 @@
+//! What a simulation refuses to start from: numbers that no body or wall can have.
+
+use pulvis_boundary::Background;
+use pulvis_boundary::motion::{Range, Slot};
+use pulvis_math::Vector3;
+
+use super::{Setup, SetupError};
+use crate::particles::Particle;
+use crate::walls::{Extent, FaceArea, Wall, WallMotion};
+
+/// A number that cannot be, for [`SetupError`] to say whose it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Refused {
+    quantity: &'static str,
+    found: f64,
+    expected: &'static str,
+}
+
+type Check = Result<(), Refused>;
+
+/// Refuses what is found unless it `holds`.
+fn require(holds: bool, quantity: &'static str, found: f64, expected: &'static str) -> Check {
+    if holds { Ok(()) } else { Err(Refused { quantity, found, expected }) }
+}
+
+fn positive(quantity: &'static str, found: f64) -> Check {
+    require(found > 0.0 && found.is_finite(), quantity, found, "a finite number greater than zero")
+}
+
+fn not_negative(quantity: &'static str, found: f64) -> Check {
+    require(found >= 0.0 && found.is_finite(), quantity, found, "a finite number of at least zero")
+}
+
+fn finite(quantity: &'static str, found: f64) -> Check {
+    require(found.is_finite(), quantity, found, "a finite number")
+}
+
+fn finite_vector(quantity: &'static str, found: Vector3) -> Check {
+    found.to_array().into_iter().try_for_each(|component| finite(quantity, component))
+}
+
+/// Refuses a setup with numbers that cannot be. Models, areas and periods are checked elsewhere, as they can change.
+pub(super) fn check_setup(setup: &Setup) -> Result<(), SetupError> {
+    check_particles(&setup.particles)?;
+    check_background(&setup.background)?;
+    for (index, wall) in setup.walls.iter().enumerate() {
+        let refused =
+            |Refused { quantity, found, expected }| SetupError::Wall { index, quantity, found, expected };
+        check_wall(wall).map_err(refused)?;
+        check_extents(index, wall, setup.walls.len())?;
+    }
+    Ok(())
+}
+
+/// Refuses particles with numbers that cannot be.
+pub(super) fn check_particles(particles: &[Particle]) -> Result<(), SetupError> {
+    for (index, particle) in particles.iter().enumerate() {
+        check_particle(particle).map_err(|Refused { quantity, found, expected }| SetupError::Particle {
+            index,
+            quantity,
+            found,
+            expected,
+        })?;
+    }
+    Ok(())
+}
+
+fn check_particle(particle: &Particle) -> Check {
+    positive("radius [m]", particle.radius)?;
+    positive("mass [kg]", particle.mass)?;
+    finite_vector("position [m]", particle.position)?;
+    finite_vector("velocity [m/s]", particle.velocity)?;
+    finite_vector("angular velocity [rad/s]", particle.angular_velocity)
+}
+
+/// Refuses gravity and drag that cannot be.
+pub(super) fn check_background(background: &Background) -> Result<(), SetupError> {
+    finite_vector("gravity [m/s²]", background.gravity)
+        .and_then(|()| not_negative("drag [kg/s]", background.drag))
+        .and_then(|()| not_negative("rotational drag [kg/s]", background.rotational_drag))
+        .map_err(|Refused { quantity, found, expected }| SetupError::Background { quantity, found, expected })
+}
+
+/// The shape checks itself, against the largest particle.
+fn check_wall(wall: &Wall) -> Check {
+    finite_vector("point [m]", wall.point)?;
+    check_area(&wall.area)?;
+    check_motion(wall.motion)
+}
+
+fn check_area(area: &FaceArea) -> Check {
+    match area {
+        FaceArea::Unknown => Ok(()),
+        FaceArea::Given(area) => positive("area [m²]", *area),
+        FaceArea::Product(extents) => extents.iter().try_for_each(|extent| match *extent {
+            Extent::Given(length) => positive("extent of the face [m]", length),
+            Extent::Between(..) => Ok(()),
+        }),
+    }
+}
+
+/// Refuses a motion with numbers out of the ranges that it states itself.
+fn check_motion(mut motion: WallMotion) -> Check {
+    motion.parameters().into_iter().try_for_each(|parameter| match (parameter.value, parameter.range) {
+        (Slot::Vector(vector), _) => finite_vector(parameter.name, *vector),
+        (Slot::Number(number), Range::Any) => finite(parameter.name, *number),
+        (Slot::Number(number), Range::NonNegative) => not_negative(parameter.name, *number),
+        (Slot::Number(number), Range::Positive) => positive(parameter.name, *number),
+    })
+}
+
+/// Refuses a face that ranges between walls that are not there.
+fn check_extents(index: usize, wall: &Wall, walls: usize) -> Result<(), SetupError> {
+    let FaceArea::Product(extents) = &wall.area else { return Ok(()) };
+    let named = extents.iter().flat_map(|extent| match *extent {
+        Extent::Given(_) => [None, None],
+        Extent::Between(one, other) => [Some(one), Some(other)],
+    });
+    match named.flatten().find(|&other| other >= walls) {
+        Some(other) => Err(SetupError::NoSuchWall { index, other, walls }),
+        None => Ok(()),
+    }
+}
