@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::Outcome;
 use crate::process::{cargo, run};
-use crate::{book, check_docs, experiments, scenarios, tests};
+use crate::{book, check_docs, experiments, scenarios, tests, threads};
 
 /// A step, by its name.
 type Step = (&'static str, fn() -> Outcome);
@@ -12,13 +12,14 @@ type Step = (&'static str, fn() -> Outcome);
 /// Everything, in one profile, so that tests, binary and tasks share their builds. A step that fails does not hide the
 /// findings of the next ones.
 pub fn run_all() -> Outcome {
-    let steps: [Step; 8] = [
+    let steps: [Step; 9] = [
         ("formatting", || run(&mut cargo(&["fmt", "--all", "--check"]))),
         ("documents", check_docs::run),
         ("table of laws", book::check),
         ("lints", lints),
         ("API documentation", documentation),
         ("tests", tests::run_all),
+        ("threads", threads::loom),
         ("scenarios", scenarios::run),
         ("experiments", || experiments::run(None)),
     ];

@@ -13,6 +13,7 @@ mod process;
 mod scenarios;
 mod table;
 mod tests;
+mod threads;
 
 use std::process::ExitCode;
 
@@ -27,6 +28,8 @@ usage: cargo xtask <task>
   experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
   features FOLDER      says what is seen in the tablet's run in FOLDER, and whether it is what was asked for
   scenarios            shows every good and bad scenario of the tests to the pulvis command
+  loom                 tests threads in every order of their operations (loom, some switches between threads)
+  miri                 looks for undefined behaviour in what threads share, where a nightly Miri is installed
   golden-bits          writes the bits of the runs of crates/pulvis-cli/tests/golden_bits anew
   figures              makes the pictures of README and docs anew
   book                 writes the book's table of laws from the catalogue, builds the book if mdbook is there
@@ -44,6 +47,8 @@ fn main() -> ExitCode {
         ["experiments", folder] => experiments::run(Some(folder)),
         ["features", folder] => features::run(folder),
         ["scenarios"] => scenarios::run(),
+        ["loom"] => threads::loom(),
+        ["miri"] => threads::miri(),
         ["golden-bits"] => tests::renew_golden_bits(),
         ["figures"] => figures::run_all(),
         ["book"] => book::write(),

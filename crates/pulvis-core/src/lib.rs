@@ -13,11 +13,11 @@ mod neighbours;
 mod particles;
 mod phases;
 mod region;
-mod shared;
 mod simulation;
-mod thread_pool;
 mod time_step;
 pub mod walls;
+
+use pulvis_parallel::{shared, thread_pool};
 
 pub use columns::{NameError, NamedColumn};
 pub use contacts::{ContactPartner, ContactRecords, ContactTotals, ContactView, Interactions, MemoryError};

@@ -1,12 +1,13 @@
 //! One sweep over all contacts: chunk by chunk, each finished when its forces and torques are complete.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
+
+use pulvis_parallel::hand_over::HandOver;
 
 use super::block::Partner;
 use super::chunk::{Chunk, HaloContribution};
-use super::deferred::DeferredChunks;
 use super::kernel::{self, Advance, KinematicColumns, Prefetch};
+use super::sums::{ChunkSums, Sums};
 use crate::particles::ForceTorque;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
@@ -22,46 +23,6 @@ pub(crate) struct Sweep<'a> {
     pub(crate) advance: &'a Advance,
     /// Whether `forces_and_torques` are to hold those on all rows at the end, as they were finished.
     pub(crate) keep: bool,
-}
-
-/// Chunks whose contacts are still to be computed before the forces and torques on a chunk are complete.
-#[derive(Debug, Default)]
-pub(super) struct DependencyCounter {
-    left: AtomicU32,
-    start: u32,
-    /// The worker of the pool that has computed the chunk's own contacts.
-    worker: AtomicUsize,
-}
-
-impl Clone for DependencyCounter {
-    fn clone(&self) -> Self {
-        Self::from(self.start)
-    }
-}
-
-impl DependencyCounter {
-    pub(super) fn from(start: u32) -> Self {
-        Self { left: AtomicU32::new(start), start, ..Self::default() }
-    }
-
-    /// Whether this was the last one; the countdown then begins anew.
-    fn is_over(&self) -> bool {
-        // What others wrote before they counted down is seen by the last one.
-        let over = self.left.fetch_sub(1, Ordering::AcqRel) == 1;
-        if over {
-            self.begin_anew();
-        }
-        over
-    }
-
-    /// Whether only the chunk itself has still to count down; then nobody else will.
-    fn has_one_left(&self) -> bool {
-        self.left.load(Ordering::Acquire) == 1
-    }
-
-    fn begin_anew(&self) {
-        self.left.store(self.start, Ordering::Relaxed);
-    }
 }
 
 /// The halos of all chunks.
@@ -85,50 +46,13 @@ impl<'a> Halos<'a> {
     }
 }
 
-/// Where a worker of the pool adds up the forces and torques of one chunk after the other.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Sums {
-    present: Vec<ForceTorque>,
-    /// Those of the next chunk: the first `cleared` of them are zero.
-    next: Vec<ForceTorque>,
-    cleared: usize,
-}
-
-impl Sums {
-    /// So many sums, all zero, for the present chunk, and as many as the next one is likely to need, which
-    /// somebody `clears` on the way: all at once, the processor would wait for its caches.
-    fn turn(
-        &mut self,
-        [count, next_count]: [usize; 2],
-        clears: bool,
-    ) -> (&mut [ForceTorque], &mut [ForceTorque]) {
-        std::mem::swap(&mut self.present, &mut self.next);
-        if self.present.len() < count {
-            self.present.resize(count, ForceTorque::default());
-        }
-        let (_, left) = self.present[..count].split_at_mut(self.cleared.min(count));
-        left.fill(ForceTorque::default());
-        if self.next.len() < next_count {
-            self.next.resize(next_count, ForceTorque::default());
-        }
-        self.cleared = if clears { next_count } else { 0 };
-        (&mut self.present[..count], &mut self.next[..next_count])
-    }
-
-    /// Memory [byte].
-    pub(super) fn memory_size(&self) -> usize {
-        size_of_val(&self.present[..]) + size_of_val(&self.next[..])
-    }
-}
-
 /// A sweep on its way; see [`Sweep`].
 pub(super) struct ForcePass<'a, F> {
     pub(super) sweep: Sweep<'a>,
     pub(super) chunks: Shared<'a, Chunk>,
     /// One for each worker of the pool.
     pub(super) sums: Shared<'a, Sums>,
-    pub(super) pending: &'a [DependencyCounter],
-    pub(super) deferred: &'a DeferredChunks,
+    pub(super) hand_over: &'a HandOver,
     pub(super) halos: Halos<'a>,
     /// Told the number of a chunk, its rows and the complete forces and torques on them.
     pub(super) finish: F,
@@ -141,7 +65,6 @@ impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
     /// No other thread works as this `worker`, and none computes this chunk.
     pub(super) unsafe fn compute(&self, worker: usize, number: usize) {
         let Sweep { forces_and_torques, keep, .. } = self.sweep;
-        let pending = &self.pending[number];
         // SAFETY: the caller's; nobody looks at a chunk before it has counted down below.
         let (sums, chunk) = unsafe { (self.sums.get_mut(worker), self.chunks.get_mut(number)) };
         let sums = self.sum_contacts(number, chunk, sums);
@@ -151,25 +74,27 @@ impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
         let start = self.halos.row_count + self.halos.starts[number];
         // SAFETY: only this chunk writes these slots; they are read after it has counted down.
         unsafe { forces_and_torques.range_mut(start..start + halo.len()) }.copy_from_slice(halo);
-        if pending.has_one_left() {
-            pending.begin_anew();
-            // SAFETY (here and below): all chunks with a part in this one have counted down, and this
-            // thread alone has seen the end of the countdown.
+        if self.hand_over.completes_at_once(number) {
+            // SAFETY: all chunks that contribute to this one have counted down, and nobody else finishes it.
             unsafe { self.complete(chunk, own) };
             (self.finish)(number, rows.clone(), own);
             if keep {
                 // SAFETY: the forces and torques of these rows, which this thread alone has finished.
                 unsafe { forces_and_torques.range_mut(rows) }.copy_from_slice(own);
             }
-            self.deferred.count_finished();
         } else {
             // SAFETY: the sums of these rows, which are not complete.
             unsafe { forces_and_torques.range_mut(rows) }.copy_from_slice(own);
-            pending.worker.store(worker, Ordering::Relaxed);
-            self.count_down(worker, number);
+            if self.hand_over.count_own(worker, number) {
+                // SAFETY: the hand-over has told this thread alone to finish the chunk.
+                unsafe { self.finish_stored(number) };
+            }
         }
         for &later in &chunk.dependents {
-            self.count_down(worker, later as usize);
+            if self.hand_over.count_down(worker, later as usize) {
+                // SAFETY: as above.
+                unsafe { self.finish_stored(later as usize) };
+            }
         }
     }
 
@@ -184,9 +109,11 @@ impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
         let Chunk { rows, groups, phases, approach, .. } = chunk;
         // The largest group comes first, and the next chunk is mostly the one behind this.
         let next_halo = self.halos.of(number + 1);
-        let counts = [rows.len() + self.halos.of(number).len(), rows.len() + next_halo.len()];
+        let count = rows.len() + self.halos.of(number).len();
+        let ChunkSums { sums, next: next_sums, next_zeroed } =
+            sums.of_chunk(count, rows.len() + next_halo.len());
+        let next_count = next_sums.len();
         let pairs_come_first = groups.first().is_some_and(|group| group.partner == Partner::Particle);
-        let (sums, next_sums) = sums.turn(counts, pairs_come_first);
         let mut prefetch =
             Prefetch { rows: rows.end..rows.end + rows.len(), halo: next_halo, sums: next_sums };
         let mut clock = Stopwatch::start(advance.timed);
@@ -200,23 +127,10 @@ impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
                 Partner::Wall => &mut phases.walls,
             });
         }
-        sums
-    }
-
-    /// Counts a chunk with a part in another one. Who does the last of them finishes the other at once if it has
-    /// computed its contacts too.
-    fn count_down(&self, worker: usize, number: usize) {
-        let pending = &self.pending[number];
-        if pending.is_over() {
-            let owner = pending.worker.load(Ordering::Relaxed);
-            if owner == worker {
-                self.deferred.count_finished();
-                // SAFETY: this thread alone has seen the end of the countdown.
-                unsafe { self.finish_stored(number) };
-            } else {
-                self.deferred.leave(owner, number);
-            }
+        if pairs_come_first {
+            *next_zeroed = next_count;
         }
+        sums
     }
 
     /// Finishes a chunk whose sums stand in the forces and torques of its rows.

@@ -2,7 +2,6 @@
 
 mod block;
 mod chunk;
-mod deferred;
 mod force_pass;
 mod interactions;
 mod kernel;
@@ -11,6 +10,7 @@ mod rebuild;
 mod records;
 mod row_set;
 mod search;
+mod sums;
 mod table;
 mod totals;
 mod view;

@@ -4,14 +4,15 @@ use std::ops::Range;
 
 use pulvis_contact::ContactEnergies;
 use pulvis_math::{F64Array, InstructionSet};
+use pulvis_parallel::hand_over::HandOver;
 
 use super::Interactions;
 use super::block::{ContactGroup, Partner};
 use super::chunk::{Approach, Chunk, HaloContribution, cut};
-use super::deferred::DeferredChunks;
-use super::force_pass::{DependencyCounter, ForcePass, Halos, Sums, Sweep};
+use super::force_pass::{ForcePass, Halos, Sweep};
 use super::listing::{Listing, Sources};
 use super::rebuild::MemoryStore;
+use super::sums::Sums;
 use super::totals::ContactTotals;
 use crate::neighbours::{CellGrid, Moved, Skin};
 use crate::particles::{ForceTorque, MaterialIndex, Particles};
@@ -29,10 +30,10 @@ pub(crate) struct ContactTable {
     halos: Vec<u32>,
     /// Where the halo of each chunk begins, and the end.
     halo_starts: Vec<usize>,
-    pending: Vec<DependencyCounter>,
+    /// Which chunks are complete.
+    hand_over: HandOver,
     /// Scratch: one for each worker of the pool.
     sums: Vec<Sums>,
-    deferred: DeferredChunks,
     /// Scratch: one for each worker of the pool.
     listings: Vec<Listing>,
 }
@@ -122,8 +123,7 @@ impl ContactTable {
             self.chunks[number].halo = halo;
         }
         self.halo_starts.push(self.halos.len());
-        let counts = self.chunks.iter().map(|chunk| 1 + chunk.halo_contributions.len() as u32);
-        self.pending = counts.map(DependencyCounter::from).collect();
+        self.hand_over = HandOver::new(self.chunks.iter().map(|chunk| chunk.halo_contributions.len() as u32));
         rows + self.halos.len()
     }
 
@@ -149,20 +149,19 @@ impl ContactTable {
     ) {
         let count = self.chunks.len();
         self.sums.resize_with(pool.threads(), Sums::default);
-        self.deferred.clear(pool.threads(), count);
+        self.hand_over.begin(pool.threads());
         let pass = ForcePass {
             sweep: *sweep,
             chunks: Shared::new(&mut self.chunks),
             sums: Shared::new(&mut self.sums),
-            pending: &self.pending,
-            deferred: &self.deferred,
+            hand_over: &self.hand_over,
             halos: Halos { rows: &self.halos, starts: &self.halo_starts, row_count: self.row_count },
             finish,
         };
         // SAFETY: every worker is told its own number, and every chunk is computed once.
         let compute = |worker, number| unsafe { pass.compute(worker, number) };
-        pool.for_each_number_in_turns(count, compute, |worker, turn| {
-            while let Some(number) = pass.deferred.take(worker, turn) {
+        pool.for_each_number_in_phases(count, compute, |worker, phase| {
+            while let Some(number) = pass.hand_over.take(worker, phase) {
                 // SAFETY: nobody else has taken it.
                 unsafe { pass.finish_stored(number) };
             }

@@ -5,8 +5,21 @@ use std::ops::Range;
 
 /// A slice whose parts are handed to different threads. Who takes a part must know that nobody else
 /// writes it meanwhile.
+///
+/// Several threads may read one item, so that only items that may be shared can be in it:
+///
+/// ```
+/// fn shared_with_threads<T: Sync>(_: T) {}
+/// # use pulvis_parallel::shared::Shared;
+/// shared_with_threads(Shared::new(&mut [1, 2]));
+/// ```
+/// ```compile_fail,E0277
+/// fn shared_with_threads<T: Sync>(_: T) {}
+/// # use pulvis_parallel::shared::Shared;
+/// shared_with_threads(Shared::new(&mut [std::cell::Cell::new(1)]));
+/// ```
 #[derive(Debug)]
-pub(crate) struct Shared<'a, T> {
+pub struct Shared<'a, T> {
     start: *mut T,
     length: usize,
     slice: PhantomData<&'a mut [T]>,
@@ -20,20 +33,20 @@ impl<T> Clone for Shared<'_, T> {
 
 impl<T> Copy for Shared<'_, T> {}
 
-// SAFETY: hands out references to `T` on any thread, by functions whose callers vouch for their being
-// no conflicts.
-unsafe impl<T: Send> Send for Shared<'_, T> {}
+// SAFETY: hands out `&T` and `&mut T` on any thread, by functions whose callers vouch for their being no conflicts.
+unsafe impl<T: Send + Sync> Send for Shared<'_, T> {}
 // SAFETY: as above.
-unsafe impl<T: Send> Sync for Shared<'_, T> {}
+unsafe impl<T: Send + Sync> Sync for Shared<'_, T> {}
 
 impl<'a, T> Shared<'a, T> {
-    pub(crate) fn new(slice: &'a mut [T]) -> Self {
+    /// Shares a slice until it is used again by its owner.
+    pub fn new(slice: &'a mut [T]) -> Self {
         Self { start: slice.as_mut_ptr(), length: slice.len(), slice: PhantomData }
     }
 
     /// Has an item brought near; any index will do.
     #[inline(always)]
-    pub(crate) fn prefetch(&self, index: usize) {
+    pub fn prefetch(&self, index: usize) {
         pulvis_math::prefetch(self.start.wrapping_add(index));
     }
 
@@ -42,7 +55,7 @@ impl<'a, T> Shared<'a, T> {
     /// # Safety
     /// `index` lies within the slice, and nobody writes the item while the reference lives.
     #[inline(always)]
-    pub(crate) unsafe fn get(&self, index: usize) -> &'a T {
+    pub unsafe fn get(&self, index: usize) -> &'a T {
         debug_assert!(index < self.length);
         // SAFETY: the caller's.
         unsafe { &*self.start.add(index) }
@@ -55,7 +68,7 @@ impl<'a, T> Shared<'a, T> {
     /// `number` is the index of an item within the slice, in numbers, and nobody writes the item while
     /// the reference lives.
     #[inline(always)]
-    pub(crate) unsafe fn get_at_number(&self, number: u32) -> &'a T {
+    pub unsafe fn get_at_number(&self, number: u32) -> &'a T {
         debug_assert!(number as usize * size_of::<f64>() < self.length * size_of::<T>());
         // SAFETY: the caller's.
         unsafe { &*self.start.cast::<f64>().add(number as usize).cast::<T>() }
@@ -66,7 +79,7 @@ impl<'a, T> Shared<'a, T> {
     /// # Safety
     /// `index` lies within the slice, and nobody else uses the item while the reference lives.
     #[inline(always)]
-    pub(crate) unsafe fn get_mut(&self, index: usize) -> &'a mut T {
+    pub unsafe fn get_mut(&self, index: usize) -> &'a mut T {
         debug_assert!(index < self.length);
         // SAFETY: the caller's.
         unsafe { &mut *self.start.add(index) }
@@ -78,7 +91,7 @@ impl<'a, T> Shared<'a, T> {
     /// # Safety
     /// As there, and nobody else uses the item while the reference lives.
     #[inline(always)]
-    pub(crate) unsafe fn get_mut_at_number(&self, number: u32) -> &'a mut T {
+    pub unsafe fn get_mut_at_number(&self, number: u32) -> &'a mut T {
         debug_assert!(number as usize * size_of::<f64>() < self.length * size_of::<T>());
         // SAFETY: the caller's.
         unsafe { &mut *self.start.cast::<f64>().add(number as usize).cast::<T>() }
@@ -88,7 +101,11 @@ impl<'a, T> Shared<'a, T> {
     ///
     /// # Safety
     /// Nobody else uses these items while the reference lives.
-    pub(crate) unsafe fn range_mut(&self, range: Range<usize>) -> &'a mut [T] {
+    ///
+    /// # Panics
+    /// The range is not within the slice.
+    #[inline]
+    pub unsafe fn range_mut(&self, range: Range<usize>) -> &'a mut [T] {
         assert!(range.start <= range.end && range.end <= self.length);
         // SAFETY: within the slice; the rest is the caller's.
         unsafe { std::slice::from_raw_parts_mut(self.start.add(range.start), range.len()) }
