@@ -45,7 +45,9 @@ pub use kinematics::{ContactInputs, ContactKinematics, NormalMotion};
 pub use memory::{Columns, Memory, MemoryLayout, MemorySlots};
 pub use model::{ContactLaws, ContactModel};
 pub use noncontact::NonContact;
-pub use normal::{Hertz, Jkr, Linear, Luding, Normal, NormalLaw, NormalLawVisitor, NormalResponse};
+pub use normal::{
+    Hertz, Jkr, Linear, Luding, Normal, NormalLaw, NormalLawVisitor, NormalResponse, WaltonJohnson,
+};
 pub use pair::Pair;
 pub use response::ContactResponse;
 pub use viscosity::Viscosity;

@@ -210,15 +210,9 @@ impl<'a, R: Real> Resistance<'a, R> {
 
     /// The motion that springs follow, with the velocity that dashpots see.
     #[inline(always)]
-    fn spring_motion<T: Tangent<R>>(
-        &self,
-        velocity: T,
-        velocity_mid: T,
-        displacement: T,
-    ) -> SpringMotion<T, R> {
+    fn spring_motion<T: Tangent<R>>(&self, velocity: T, displacement: T) -> SpringMotion<T, R> {
         SpringMotion {
             velocity: T::select(self.in_contact, velocity, T::zero()),
-            velocity_mid,
             displacement,
             elapsed: self.elapsed,
             in_contact: self.in_contact,
@@ -310,7 +304,7 @@ impl<R: Real, C: Columns<R> + ?Sized> FrictionVisitor for Stretch<'_, R, C> {
         let (carried, displacement) = step.carried(before, velocity_mid * step.elapsed);
         let mut spring = carried;
         let normal = step.motion.normal;
-        let motion = step.spring_motion(velocity, velocity_mid, displacement.tangential_to(normal));
+        let motion = step.spring_motion(velocity, displacement.tangential_to(normal));
         let (mut answer, slips) = law.respond(&motion, &mut spring, &mut scalars);
         if step.works_while_open(slips) {
             let mean = law.elastic_force((carried + spring) * R::splat(0.5));
@@ -343,7 +337,7 @@ impl<R: Real, C: Columns<R> + ?Sized> FrictionVisitor for Twist<'_, R, C> {
         let before = Along(columns.get(start));
         let mut scalars: F::Scalars<R> = memory::load(columns, start + 1);
         let displacement = Along(velocity_mid * step.elapsed);
-        let motion = step.spring_motion(Along(velocity), Along(velocity_mid), displacement);
+        let motion = step.spring_motion(Along(velocity), displacement);
         let mut spring = before;
         let (mut answer, slips) = law.respond(&motion, &mut spring, &mut scalars);
         if step.works_while_open(slips) {

@@ -8,8 +8,12 @@
 
 use std::f64::consts::PI;
 
+use pulvis_contact::friction::mindlin::Rescale;
 use pulvis_contact::normal::Interpolation;
-use pulvis_contact::{ContactLaws, ContactModel, Friction, Linear, Luding, Normal, SpringSlider};
+use pulvis_contact::theory::JkrPair;
+use pulvis_contact::{
+    ContactLaws, ContactModel, Friction, Hertz, Jkr, Linear, Luding, Mindlin, Normal, SpringSlider,
+};
 use pulvis_math::Vector3;
 use pulvis_testkit::bodies::{Couple, Sphere};
 
@@ -100,6 +104,48 @@ fn a_sticking_contact_point_oscillates_at_its_frequency() {
             couple
         };
         oscillates_at(expected, start, |couple| couple.springs().sliding.x);
+    }
+}
+
+/// A contact of the tangential stiffness 8 G* a.
+fn sheared(normal: impl Into<Normal>, effective_shear_modulus: f64, rescale: Rescale) -> ContactModel {
+    let law = Mindlin { effective_shear_modulus, dashpot: 0.0, coefficient: 1e3, rescale };
+    model(normal, ContactLaws { sliding: Some(law.into()), ..ContactLaws::default() })
+}
+
+#[test]
+fn elastic_spheres_oscillate_sideways_with_the_stiffness_of_their_contact_area() {
+    // ω² = 8 G* a (1/m_r + a_i²/I_i + a_j²/I_j). Overlaps are 1e-7 of the radii.
+    let (modulus, shear_modulus) = (1e12, 4e11);
+    for rescale in [Rescale::Energy, Rescale::Unloading] {
+        // A sphere that its weight presses to a wall: δ = 1 nm, a = √(R δ).
+        let overlap = 1e-9;
+        let load = 4.0 / 3.0 * modulus * RADIUS.sqrt() * overlap * overlap.sqrt();
+        let on_wall = || {
+            let model = sheared(Hertz { effective_modulus: modulus }, shear_modulus, rescale);
+            let mut couple = Couple::new(&model, Sphere::at_rest(MASS, RADIUS, Z * (RADIUS - overlap)), None);
+            couple.gravity = -Z * (load / MASS);
+            couple.step(0.0);
+            couple.step(0.0);
+            couple.i.velocity = X * 1e-7;
+            couple
+        };
+        let stiffness = 8.0 * shear_modulus * (RADIUS * overlap).sqrt();
+        oscillates_at((3.5 * stiffness / MASS).sqrt(), on_wall, |couple| couple.springs().sliding.x);
+        // Two spheres that hang together without load.
+        let (adhesion, effective_radius) = (0.05, 0.5 * RADIUS);
+        let pair = JkrPair::new(modulus, adhesion, effective_radius).unwrap();
+        let area = pair.unloaded_radius();
+        let hanging = || {
+            let model = sheared(Jkr::new(modulus, adhesion), shear_modulus, rescale);
+            let partner = Sphere::at_rest(MASS, RADIUS, Vector3::zero());
+            let first = Sphere::at_rest(MASS, RADIUS, Z * (2.0 * RADIUS - pair.overlap(area)));
+            let mut couple = Couple::new(&model, first, Some(partner));
+            couple.i.velocity = X * 1e-7;
+            couple
+        };
+        let stiffness = 8.0 * shear_modulus * area;
+        oscillates_at((7.0 * stiffness / MASS).sqrt(), hanging, |couple| couple.springs().sliding.x);
     }
 }
 

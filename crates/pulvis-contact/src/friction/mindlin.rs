@@ -18,7 +18,7 @@ use crate::catalogue::{Choice, InvalidParameter, LawEntry, Parameter, Range, Rol
 ///
 /// # Source
 /// R. D. Mindlin, J. Appl. Mech. 16, 259 (1949); K. L. Johnson, *Contact Mechanics* (1985), eq. (7.44). The memory of
-/// force and energy is derived, with its proof, in decision 14.
+/// force and energy is derived, with its proof, in decision 15.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mindlin {
     /// Effective shear modulus G* [Pa].
@@ -161,7 +161,7 @@ impl Mindlin {
         let mut trial = T::zero() - carried - motion.displacement.scaled(stiffness);
         let mut compliance = quotient(R::one(), stiffness);
         if self.dashpot != 0.0 {
-            trial = trial - motion.velocity_mid.scaled(dashpot);
+            trial = trial - motion.mean_velocity().scaled(dashpot);
             compliance = motion.elapsed / (stiffness * motion.elapsed + dashpot);
         }
         let size = trial.norm_squared().sqrt();
@@ -208,7 +208,9 @@ impl FrictionLaw for Mindlin {
         if self.dashpot != 0.0 {
             damping = T::select(slips, T::zero() - force - after, damping);
             damping = T::select(motion.in_contact, damping, T::zero());
-            lost += damping.dot(path);
+            // With the velocity at the end of the step: over the slip it adds up to the trapezoidal rule.
+            let path_now = motion.velocity.scaled(motion.elapsed) - taken;
+            lost += damping.dot(T::select(slips, path_now, T::zero()));
             viscous_power = damping.norm_squared() * R::splat(1.0 / self.dashpot);
         }
         // Gross sliding forgets what is locked in; an open contact forgets all.

@@ -7,7 +7,7 @@ use crate::catalogue::{InvalidParameter, LawEntry, Role, Values};
 use crate::conventions::SlipDashpot;
 use crate::memory::Memory;
 
-mod mindlin;
+pub mod mindlin;
 mod none;
 mod rotation;
 mod spring_slider;
@@ -37,9 +37,7 @@ pub struct FrictionResponse<T, R = f64> {
 pub struct SpringMotion<T, R: Real> {
     /// Relative velocity at the time of the force [m/s].
     pub velocity: T,
-    /// Relative velocity at mid-step [m/s].
-    pub velocity_mid: T,
-    /// Relative displacement since the last call, `velocity_mid` times `elapsed` [m].
+    /// Relative displacement since the last call, in the present tangent plane [m].
     pub displacement: T,
     /// For how long the contact has been closed since the last call [s].
     pub elapsed: R,
@@ -51,6 +49,16 @@ pub struct SpringMotion<T, R: Real> {
     pub contact_radius: R,
     /// What the dashpot sees in slip.
     pub slip_dashpot: SlipDashpot,
+}
+
+impl<T: Tangent<R>, R: Real> SpringMotion<T, R> {
+    /// The displacement over the time that it took, zero where none has passed [m/s].
+    #[inline(always)]
+    fn mean_velocity(&self) -> T {
+        let moves = self.elapsed.gt(R::zero());
+        let rate = R::one() / R::select(moves, self.elapsed, R::one());
+        self.displacement.scaled(rate.keep_where(moves))
+    }
 }
 
 /// A law against one of the three relative motions. Its memory is a vector of the tangent plane, or a number along the

@@ -13,12 +13,14 @@ mod jkr;
 mod linear;
 mod luding;
 mod response;
+mod walton_johnson;
 
 pub use hertz::Hertz;
 pub use jkr::Jkr;
 pub use linear::Linear;
 pub use luding::{Interpolation, Luding, LudingMemory};
 pub use response::NormalResponse;
+pub use walton_johnson::{WaltonJohnson, WaltonJohnsonMemory};
 
 /// A force along the line of centres.
 ///
@@ -224,7 +226,7 @@ macro_rules! normal_laws {
 // The list of normal laws: a new one is its file and its name here, among the others. Loops are compiled once more for
 // each common law, for every level of resistance and instruction set; all others share one loop and are called through
 // pointers (decision 13).
-normal_laws![common: Linear, Luding; others: Hertz, Jkr];
+normal_laws![common: Linear, Luding; others: Hertz, Jkr, WaltonJohnson];
 
 macro_rules! forwarded {
     ($(#[$doc:meta])* $name:ident($($argument:ident: $type:ty),*) -> $output:ty) => {

@@ -25,7 +25,8 @@
 //! sticking overlap follows from `D`. For `f_a = 0` below the limit this gives `e_n^2 = 1 - q = (1 + b - b
 //! s)/(1 + b + s)`, which is S1 (32) with its two terms combined.
 //!
-//! All formulas hold for `gamma_0 = 0` except those of [`linear`].
+//! All formulas hold for `gamma_0 = 0` except those of [`linear`] and the dashpot of [`hertz`]. The elastic spheres of
+//! [`hertz`] and [`jkr`] and the pair of [`walton_johnson`] are not of this family.
 
 pub mod asymptotes;
 mod branches;
@@ -33,6 +34,8 @@ pub mod dimensionless;
 mod duration;
 pub mod energies;
 mod error;
+pub mod hertz;
+pub mod jkr;
 pub mod linear;
 mod parameters;
 mod restitution;
@@ -40,10 +43,14 @@ pub mod sticking;
 mod trajectory;
 pub mod tuning;
 mod velocities;
+pub mod walton_johnson;
 
 pub use error::TheoryError;
+pub use hertz::HertzPair;
+pub use jkr::JkrPair;
 pub use linear::LinearSpringDashpot;
 pub use parameters::{Interpolation, LudingPair, LudingParameters, NonContact};
 pub use restitution::{Regime, Restitution, Stage};
 pub use trajectory::{Branch, CollisionState, StuckOscillation, Trajectory};
 pub use velocities::CriticalVelocities;
+pub use walton_johnson::WaltonJohnsonPair;

@@ -13,15 +13,27 @@ use crate::live::LiveContact;
 /// The balance starts with the first answer, in contact: the jump of a dashpot at touch belongs to the
 /// time integration and not to the law.
 pub fn closing_errors<const N: usize>(model: &ContactModel, dance: &Dance, steps: [usize; N]) -> [f64; N] {
-    steps.map(|count| closing_error(model, dance, count))
+    steps.map(|count| balance(model, dance, count).missing)
 }
 
-fn closing_error(model: &ContactModel, dance: &Dance, count: usize) -> f64 {
+/// The largest amount by which what `model` stores along `dance` exceeds the work that was done on it until then, over
+/// all the energy that was turned over, once for each number of steps.
+pub fn deficits<const N: usize>(model: &ContactModel, dance: &Dance, steps: [usize; N]) -> [f64; N] {
+    steps.map(|count| balance(model, dance, count).deficit)
+}
+
+/// Parts of the energy that was turned over.
+struct Balance {
+    missing: f64,
+    deficit: f64,
+}
+
+fn balance(model: &ContactModel, dance: &Dance, count: usize) -> Balance {
     let mut contact = LiveContact::new(model, dance.pair);
     let dt = dance.duration / count as f64;
     let mut before: Option<(Work, ContactEnergies<f64>)> = None;
     let (mut work, mut turned_over, mut lost, mut start) = (0.0, 0.0, 0.0, 0.0);
-    let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+    let (mut worst, mut deficit, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
     for step in 0..=count {
         let [i, j] = dance.step(step, count);
         // The first answer is a look at the contact, as an engine takes it before its first step.
@@ -40,14 +52,17 @@ fn closing_error(model: &ContactModel, dance: &Dance, count: usize) -> f64 {
                 + e.dissipated_rolling
                 + e.dissipated_torsion
                 + 0.5 * dt * (e.viscous_power + earlier.viscous_power);
-            worst = worst.max((work - lost - (stored(&e) - start)).abs());
+            let surplus = work - (stored(&e) - start);
+            worst = worst.max((surplus - lost).abs());
+            deficit = deficit.max(-surplus);
         } else {
             start = stored(&e);
         }
         largest = largest.max(stored(&e).abs());
         before = Some((now, e));
     }
-    worst / (turned_over + largest)
+    let all = turned_over + largest;
+    Balance { missing: worst / all, deficit: deficit / all }
 }
 
 fn stored(e: &ContactEnergies<f64>) -> f64 {

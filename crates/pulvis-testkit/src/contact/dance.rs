@@ -57,6 +57,8 @@ impl Dance {
         let max_stiffness = model.normal.max_stiffness(&pair, &loaded_to(2.0 * depth, &pair));
         // Slow enough for springs to follow, fast enough for dashpots to be felt.
         let duration = 20.0 * (pair.reduced_mass() / max_stiffness).sqrt();
+        // The arcs of deep contacts; of overlaps that are lost against the chords of a step less.
+        let turn = (1e3 * depth * pair.inverse_harmonic_radius()).min(1.0);
         let slip = depth * draw.log_between(0.3, 10.0) / duration;
         let mut angular_velocity = || draw.vector() * (slip / body_i.1);
         let angular_velocities =
@@ -67,7 +69,7 @@ impl Dance {
             radius_j: body_j.1,
             duration,
             overlap: (depth, opening * depth),
-            axis: [draw.direction(), draw.vector() * 0.5, draw.vector() * 0.3],
+            axis: [draw.direction(), draw.vector() * (0.5 * turn), draw.vector() * (0.3 * turn)],
             angular_velocities,
             twist: draw.between(-1.0, 1.0) / duration,
             phase: std::array::from_fn(|_| draw.between(0.0, TAU)),

@@ -15,7 +15,7 @@ mod lanes;
 mod rotation;
 mod symmetry;
 
-pub use balance::closing_errors;
+pub use balance::{closing_errors, deficits};
 pub use dance::Dance;
 pub use rotation::{RigidRotation, rigid_rotation};
 
