@@ -4,6 +4,7 @@
 mod common;
 
 use common::*;
+use pulvis_contact::conventions::SlipDashpot;
 use pulvis_contact::noncontact::JumpIn;
 use pulvis_contact::theory::LinearSpringDashpot;
 use pulvis_contact::{ContactModel, Linear, NonContact};
@@ -38,8 +39,14 @@ fn the_ledger_closes_at_second_order_with_all_springs_and_a_dashpot_along_the_no
 }
 
 #[test]
-fn the_ledger_of_the_whole_model_closes_at_second_order() {
+fn the_ledger_of_the_whole_model_closes_at_second_order_but_for_what_dashpots_lose_by_slip() {
+    // Their books run half a step ahead of that: first order, of a small part of the energy.
     let errors = closing_errors(&box_of_powder(viscous_luding()), 60.0);
+    assert!(errors[0] < 1e-4, "{errors:?}");
+    assert!(order(&errors) > 0.9, "observed order {}: {errors:?}", order(&errors));
+    let mut printed = viscous_luding();
+    printed.laws.conventions.slip_dashpot = SlipDashpot::Printed;
+    let errors = closing_errors(&box_of_powder(printed), 60.0);
     assert!(errors[0] < 1e-4, "{errors:?}");
     assert!(order(&errors) > 1.7, "observed order {}: {errors:?}", order(&errors));
 }
@@ -74,8 +81,9 @@ fn without_dashpots_every_loss_only_grows() {
         let ledger = powder.ledger();
         let now = losses(&ledger);
         for (account, (now, before)) in now.iter().zip(before).enumerate() {
-            // Adding up what no contact lost leaves roundings.
-            assert!(*now >= before - 1e-15 * ledger.scale, "account {account}: {before} then {now}");
+            // A contact that opens corrects what its springs did in the rest of the step: second order in the step.
+            let correction = if account < 2 { 1e-15 } else { 1e-7 };
+            assert!(*now >= before - correction * ledger.scale, "account {account}: {before} then {now}");
         }
         before = now;
     }
@@ -89,8 +97,7 @@ fn dashpots_and_slip_together_only_lose() {
     for _ in 0..3_000 {
         powder.step().unwrap();
         let ledger = powder.ledger();
-        // Where a sliding contact's dashpot alone exceeds the Coulomb limit, slip gives back what the
-        // dashpot is said to take beyond it.
+        // The books of a dashpot in series with a slider run half a step ahead of what it loses by slip.
         let now = ledger.dissipated_viscous
             + ledger.dissipated_sliding
             + ledger.dissipated_rolling
@@ -100,6 +107,47 @@ fn dashpots_and_slip_together_only_lose() {
     }
     let ledger = powder.ledger();
     assert!(ledger.dissipated_background > 0.0 && ledger.dissipated_viscous > 0.0);
+}
+
+/// The most that an isolated cloud of 150 grains ever holds, over what it began with, and its books at the end.
+/// Tangential dashpots are 1.25 times the critical one.
+fn most_held_by_a_cloud(slip_dashpot: SlipDashpot, steps_per_contact: f64) -> (f64, Ledger) {
+    let mut model = luding();
+    model.laws.sliding = Some(slider(100.0, 2e-2, 0.5));
+    model.laws.rolling = Some(slider(50.0, 1e-2, 0.1));
+    model.laws.torsion = Some(slider(50.0, 1e-2, 0.1));
+    model.laws.conventions.slip_dashpot = slip_dashpot;
+    let mut cloud = start(implosion(150, 13.0 * RADIUS, 3, model), steps_per_contact);
+    let initial = cloud.ledger().stored();
+    let mut most = 0.0_f64;
+    let rounds = (150.0 * steps_per_contact / 25.0) as usize;
+    for _ in 0..rounds {
+        advance(&mut cloud, 25);
+        let held = cloud.ledger().stored();
+        assert!(held.is_finite());
+        most = most.max(held / initial);
+    }
+    (most, cloud.ledger())
+}
+
+#[test]
+fn an_isolated_cloud_never_holds_more_than_it_began_with_however_strong_the_dashpots_of_friction() {
+    for (steps, tolerance) in [(50.0, 1e-3), (400.0, 1e-5)] {
+        let (most, ledger) = most_held_by_a_cloud(SlipDashpot::Series, steps);
+        // Second order in the step.
+        assert!(most <= 1.0 + tolerance, "{most} at {steps} steps a contact");
+        let lost = [
+            ledger.dissipated_viscous,
+            ledger.dissipated_sliding,
+            ledger.dissipated_rolling,
+            ledger.dissipated_torsion,
+        ];
+        assert!(lost.iter().all(|&lost| lost > 0.0), "{lost:?}");
+        assert!(ledger.relative_error().abs() < 1e-3, "{}", ledger.relative_error());
+    }
+    // The rule as printed stretches the springs without bound, and takes the energy from the slip account.
+    let (most, ledger) = most_held_by_a_cloud(SlipDashpot::Printed, 50.0);
+    assert!(most > 1.05 && ledger.dissipated_sliding < -ledger.initial, "{most} {ledger:?}");
 }
 
 #[test]

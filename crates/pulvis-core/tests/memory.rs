@@ -5,8 +5,8 @@ mod common;
 
 use common::*;
 use pulvis_contact::noncontact::{JumpIn, Reversible};
-use pulvis_contact::{ContactModel, NonContact};
-use pulvis_core::{ContactPartner, Domain, Setup, Simulation};
+use pulvis_contact::{ContactModel, NonContact, WaltonJohnson};
+use pulvis_core::{ContactPartner, Domain, Interactions, Setup, Simulation};
 use pulvis_math::Vector3;
 
 /// Runs the same system with a skin that is outdated every few steps and with one that holds for long.
@@ -228,4 +228,90 @@ fn a_wall_remembers_its_contacts_across_periodic_boundaries() {
     assert!((states(&open)[0].position - states(&periodic)[0].position).norm() > 5.0 * RADIUS);
     let difference = difference(&domain, &states(&open), &states(&periodic));
     assert!(difference < 1e-9, "{difference}");
+}
+
+/// A contact whose normal law keeps three columns and acts up to 2.25 µm beyond touching.
+fn three_columns(k_tail: f64) -> ContactModel {
+    let law = WaltonJohnson { k1: 100.0, k2: 400.0, f_0: 1e-4, kappa: 0.05, k_tail };
+    ContactModel { normal: law.into(), ..luding() }
+}
+
+/// The memory of every contact, by its bodies, and how many contacts are held beyond touching.
+fn memories(simulation: &Simulation) -> (Vec<(String, Vec<f64>)>, usize) {
+    let (mut all, mut apart) = (Vec::new(), 0);
+    simulation.for_each_contact(&mut |view| {
+        all.push((format!("{:?} {:?}", view.first, view.second), view.memory.to_vec()));
+        apart += usize::from(view.overlap < 0.0);
+    });
+    all.sort_by(|(one, _), (other, _)| one.cmp(other));
+    (all, apart)
+}
+
+#[test]
+fn a_memory_of_several_columns_does_not_depend_on_how_often_neighbours_are_listed() {
+    let edge = 10.0 * RADIUS;
+    let powder = Setup {
+        walls: cube_of_walls(edge),
+        background: gravity(9.81),
+        ..implosion(35, edge, 8, three_columns(50.0))
+    };
+    let both = [0.01, 0.6].map(|skin| {
+        let mut simulation = start(powder.clone(), 50.0);
+        simulation.set_skin(skin * RADIUS).unwrap();
+        let mut held_apart = 0;
+        for _ in 0..300 {
+            advance(&mut simulation, 10);
+            held_apart += memories(&simulation).1;
+        }
+        // The law's range beyond touching is made use of.
+        assert!(held_apart > 20, "{held_apart}");
+        simulation
+    });
+    assert_same(&powder.domain, &both, 1e-9);
+    let [thin, thick] = both.each_ref().map(|simulation| memories(simulation).0);
+    assert!(thin.len() > 20, "{}", thin.len());
+    for ((bodies, one), (others, two)) in thin.iter().zip(&thick) {
+        assert_eq!(bodies, others);
+        for (one, two) in one.iter().zip(two) {
+            // Columns of metres and newtons, of a largest size of 1e-5 and 1e-3.
+            assert!((one - two).abs() < 1e-12, "{bodies}: {one} {two}");
+        }
+    }
+    let [thin, thick] = both.map(|mut simulation| simulation.ledger());
+    assert!(thin.dissipated_plastic > 0.0 && thin.dissipated_adhesive > 0.0);
+    for ((name, one), (_, other)) in thin.accounts().into_iter().zip(thick.accounts()) {
+        assert!((one - other).abs() < 1e-9 * thin.scale, "{name}: {one} {other}");
+    }
+}
+
+#[test]
+fn a_switch_of_laws_keeps_the_columns_of_the_same_law_and_no_others() {
+    let switched_to = |model: ContactModel| {
+        let mut interactions = Interactions::new(1);
+        interactions.set(0, 0, model);
+        interactions
+    };
+    let pressed = 1e-5;
+    let mut pair = start(pair(three_columns(50.0), -pressed, 0.0), 50.0);
+    while overlap(&pair) > 0.95 * pressed {
+        pair.step().unwrap();
+    }
+    let memory = |simulation: &Simulation| memories(simulation).0[0].1[..3].to_vec();
+    let before = memory(&pair);
+    // Force-free overlap (1 − k1/k2) D, pull-off force f_0 + κ k1 D, attached.
+    let expected = [0.75 * pressed, 1e-4 + 5.0 * pressed, 1.0];
+    for (found, expected) in before.iter().zip(expected) {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{before:?}");
+    }
+    // The same law with other parameters takes its memory over.
+    pair.set_interactions(switched_to(three_columns(80.0))).unwrap();
+    assert_eq!(memory(&pair), before);
+    // Another one knows nothing of it, and what it kept itself is gone with it.
+    pair.set_interactions(switched_to(elastic())).unwrap();
+    pair.set_interactions(switched_to(three_columns(50.0))).unwrap();
+    let met = overlap(&pair);
+    pair.step().unwrap();
+    let after = memory(&pair);
+    assert!((after[0] / (0.75 * met) - 1.0).abs() < 1e-9, "{after:?} at {met}");
+    assert!(after[0] < 0.97 * before[0], "{before:?} {after:?}");
 }
