@@ -37,6 +37,9 @@ pub(crate) struct Run {
     /// Instruction set; the widest of this machine where not given.
     #[arg(long)]
     instructions: Option<String>,
+    /// Whether laws that have loops of their own are called through pointers, as the others are.
+    #[arg(long)]
+    pub(crate) pointers: bool,
     /// Skin of the candidate list [m]; the engine's own choice where not given.
     #[arg(long)]
     pub(crate) skin: Option<f64>,

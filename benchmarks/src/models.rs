@@ -15,6 +15,10 @@ pub(crate) enum LawChoice {
     Luding,
     /// Luding's hysteretic law, sliding, rolling, torsion.
     LudingFull,
+    /// Hertz's law, Tsuji's dashpot, Mindlin's sliding.
+    Hertz,
+    /// The law of Johnson, Kendall and Roberts, Tsuji's dashpot, Mindlin's sliding.
+    Jkr,
 }
 
 /// Whose reading of the same laws is used.
@@ -46,6 +50,12 @@ const LUDING: &str = "\
 const LAMMPS: &str = "\
 [conventions]\nfriction_reference = \"total\"\nlever_arm = \"radius\"\nspring_rotation = \"project\"\n";
 
+/// Young's modulus 10 MPa, Poisson's ratio 0.3, restitution 0.6: E* = E/(2 (1 − ν²)), G* = E/(4 (2 − ν)(1 + ν)).
+const ELASTIC: &str = "effective_modulus = \"5.494505494505495e6 Pa\"\n";
+const TSUJI: &str = "[viscosity]\nlaw = \"tsuji\"\nrestitution = 0.6\n";
+const MINDLIN: &str =
+    "[sliding]\nlaw = \"mindlin\"\neffective_shear_modulus = \"1.1312217194570136e6 Pa\"\nmu = 0.5\n";
+
 /// Its `tangential history` limits friction by the normal force alone; its `tan_luding` adds kc δ.
 const LIGGGHTS: &str = "\
 [conventions]\nfriction_reference = \"total\"\nspring_rotation = \"project\"\n";
@@ -63,11 +73,17 @@ pub(crate) fn model(
             (format!("[normal]\nlaw = \"linear\"\nk = \"100 N/m\"\n{dashpot}"), SLIDING)
         }
         LawChoice::Luding | LawChoice::LudingFull => (LUDING.to_owned(), SLIDING_OF_LUDING),
+        LawChoice::Hertz => (format!("[normal]\nlaw = \"hertz\"\n{ELASTIC}{TSUJI}"), MINDLIN),
+        // LAMMPS's 0.01 J/m² is that of one surface.
+        LawChoice::Jkr => {
+            let adhesion = "work_of_adhesion = \"0.02 N/m\"\n";
+            (format!("[normal]\nlaw = \"jkr\"\n{ELASTIC}{adhesion}{TSUJI}"), MINDLIN)
+        }
     };
     let turning = if law == LawChoice::LudingFull { ROLLING_AND_TORSION } else { "" };
     let conventions = match (conventions, law) {
         (ConventionChoice::Own, _) => "",
-        (ConventionChoice::Peer, LawChoice::Linear) => LAMMPS,
+        (ConventionChoice::Peer, LawChoice::Linear | LawChoice::Hertz | LawChoice::Jkr) => LAMMPS,
         (ConventionChoice::Peer, _) => LIGGGHTS,
     };
     read(&format!("{normal}{sliding}{turning}{conventions}"))

@@ -31,6 +31,7 @@ pub(crate) fn run(name: &str, setup: Setup, run: &Run) -> Result<(), Failure> {
     if !run.has_ledger() {
         simulation.disable_ledger();
     }
+    simulation.set_law_pointers(run.pointers);
     simulation.advance(run.warm_up)?;
     let times = timed_steps(&mut simulation, run.steps)?;
     print(name, &mut simulation, run.steps, &times);

@@ -119,11 +119,13 @@ fn quotient<R: Real>(value: R, divisor: R) -> R {
 }
 
 /// What becomes of a contact that slips.
-struct Slip<T> {
+struct Slip<T, R> {
     force: T,
     /// The part of the displacement that the spring takes, and the slip.
     taken: T,
     path: T,
+    /// One over the stiffness, zero where there is none [m/N].
+    flexibility: R,
 }
 
 impl Mindlin {
@@ -156,10 +158,11 @@ impl Mindlin {
         carried: T,
         stiffness: R,
         limit: R,
-    ) -> Slip<T> {
+    ) -> Slip<T, R> {
         let dashpot = R::splat(self.dashpot);
         let mut trial = T::zero() - carried - motion.displacement.scaled(stiffness);
-        let mut compliance = quotient(R::one(), stiffness);
+        let flexibility = quotient(R::one(), stiffness);
+        let mut compliance = flexibility;
         if self.dashpot != 0.0 {
             trial = trial - motion.mean_velocity().scaled(dashpot);
             compliance = motion.elapsed / (stiffness * motion.elapsed + dashpot);
@@ -167,7 +170,7 @@ impl Mindlin {
         let size = trial.norm_squared().sqrt();
         let force = trial.scaled(quotient(limit.min(size), size));
         let taken = (T::zero() - force - carried).scaled(compliance);
-        Slip { force, taken, path: motion.displacement - taken }
+        Slip { force, taken, path: motion.displacement - taken, flexibility }
     }
 }
 
@@ -195,11 +198,13 @@ impl FrictionLaw for Mindlin {
         let limit = R::splat(self.coefficient) * motion.friction_reference;
         let slips = force.norm_squared().gt(limit * limit);
         let (mut taken, mut path) = (motion.displacement, T::zero());
+        let mut flexibility = R::zero();
         if slips.any() {
             let slip = self.slip(motion, carried, stiffness, limit);
             force = T::select(slips, slip.force, force);
             taken = T::select(slips, slip.taken, taken);
             path = T::select(slips, slip.path, path);
+            flexibility = slip.flexibility;
         }
         let after = carried + taken.scaled(stiffness);
         let stored = energy + (carried + taken.scaled(half * stiffness)).dot(taken);
@@ -214,10 +219,9 @@ impl FrictionLaw for Mindlin {
             viscous_power = damping.norm_squared() * R::splat(1.0 / self.dashpot);
         }
         // Gross sliding forgets what is locked in; an open contact forgets all.
-        let forgets = slips | !motion.in_contact;
-        let own = quotient(half * after.norm_squared(), stiffness).keep_where(motion.in_contact);
-        let kept = R::select(forgets, own, stored);
-        lost += (stored - kept).keep_where(forgets);
+        let own = half * after.norm_squared() * flexibility;
+        let kept = R::select(slips, own, stored).keep_where(motion.in_contact);
+        lost += stored - kept;
         // An open contact has no area: it gives up its force without slipping.
         let opens = !motion.in_contact & scalars[0].gt(R::zero());
         *vector = T::select(motion.in_contact, after, T::zero());
