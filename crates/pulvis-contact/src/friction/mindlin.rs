@@ -18,7 +18,7 @@ use crate::catalogue::{Choice, InvalidParameter, LawEntry, Parameter, Range, Rol
 ///
 /// # Source
 /// R. D. Mindlin, J. Appl. Mech. 16, 259 (1949); K. L. Johnson, *Contact Mechanics* (1985), eq. (7.44). The memory of
-/// force and energy is derived, with its proof, in decision 15.
+/// force and energy is derived, with its proof, in decision 16.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mindlin {
     /// Effective shear modulus G* [Pa].

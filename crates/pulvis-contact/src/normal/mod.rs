@@ -225,7 +225,7 @@ macro_rules! normal_laws {
 
 // The list of normal laws: a new one is its file and its name here, among the others. Loops are compiled once more for
 // each common law, for every level of resistance and instruction set; all others share one loop and are called through
-// pointers (decision 13).
+// pointers (decision 17).
 normal_laws![common: Linear, Luding; others: Hertz, Jkr, WaltonJohnson];
 
 macro_rules! forwarded {
