@@ -153,7 +153,8 @@ impl<'p> Run<'p> {
             self.stop = Some(self.outcome(Regime::Stick));
             self.end_time = now.time + self.observation.time_after_sticking;
         }
-        let gone = now.overlap <= -self.problem.interaction_range() && now.velocity < 0.0;
+        // A force that ended within the last step works on in the half kick to come.
+        let gone = now.overlap <= -self.problem.interaction_range() && now.velocity < 0.0 && now.force == 0.0;
         self.over = gone || now.time >= self.end_time;
     }
 
