@@ -225,3 +225,23 @@ fn values_are_set_from_outside_once_each_and_late_mistakes_blame_the_outside() {
         "{twice}"
     );
 }
+
+#[test]
+fn moduli_of_a_contact_follow_from_its_materials_unless_it_names_them() {
+    let scenario = good("elastic.toml");
+    let modulus = |contact: usize| match scenario.stages[0].contacts[contact].model.normal {
+        Normal::Hertz(law) => law.effective_modulus,
+        other => panic!("{other:?} is not Hertz"),
+    };
+    // Equal materials: half of E/(1 − ν²).
+    assert!((modulus(0) / (0.5 * 70e9 / 0.96) - 1.0).abs() < 1e-15);
+    assert_eq!(modulus(1), 60e9);
+    let shear = |contact: usize| match scenario.stages[0].contacts[contact].model.laws.sliding {
+        Some(pulvis_contact::Friction::Mindlin(law)) => law.effective_shear_modulus,
+        other => panic!("{other:?} is not Mindlin"),
+    };
+    let (glass, steel): (f64, f64) = (70e9 / 2.4 / 1.8, 210e9 / 2.6 / 1.7);
+    assert!((shear(0) / (0.5 * glass) - 1.0).abs() < 1e-15);
+    assert!((shear(1) / (1.0 / (1.0 / glass + 1.0 / steel)) - 1.0).abs() < 1e-15);
+    assert_eq!(scenario.stages[0].contacts[0].model.laws.expected.speed, 1.0);
+}
