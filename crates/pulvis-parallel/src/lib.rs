@@ -1,4 +1,4 @@
-//! Level 0 of the house: how several threads share the work of a step.
+//! Level 1 of the house: how several threads share the work of a step.
 //!
 //! Nothing here knows physics. A [`ThreadPool`](thread_pool::ThreadPool) hands out numbered pieces of work,
 //! [`Shared`](shared::Shared) lets its workers write different parts of one slice, and a
