@@ -39,3 +39,16 @@ pub enum CollisionError {
     #[error(transparent)]
     Step(#[from] StepError),
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dashpot_is_blamed_only_where_there_is_one() {
+        let message =
+            |damped| CollisionError::TooLong { velocity: 1.0, steps: 9, time: 2.0, damped }.to_string();
+        assert!(message(true).ends_with("is the dashpot far beyond critical damping?"));
+        assert!(message(false).contains("there is no dashpot") && !message(false).contains("critical"));
+    }
+}

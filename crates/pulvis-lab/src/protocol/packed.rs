@@ -15,7 +15,7 @@ const SITES: [[f64; 3]; 4] = [[0.25, 0.25, 0.25], [0.75, 0.75, 0.25], [0.75, 0.2
 pub(super) enum Density {
     /// Nobody has a neighbour.
     Loose,
-    /// As in a bed that has come to rest or been pressed: seven contacts a particle.
+    /// As in a bed that has come to rest or been pressed: six contacts a particle.
     Settled,
     /// The densest: each particle has twelve neighbours, which it touches.
     Dense,
@@ -32,11 +32,11 @@ impl Density {
         }
     }
 
-    /// Part of the sites that are taken. Each has twelve neighbours, so that seven of them need 7/12.
+    /// Part of the sites that are taken. Each has twelve neighbours, so that six of them need a half.
     const fn occupancy(self) -> f64 {
         match self {
             Self::Loose | Self::Dense => 1.0,
-            Self::Settled => 7.0 / 12.0,
+            Self::Settled => 0.5,
         }
     }
 }
@@ -168,14 +168,14 @@ mod tests {
     }
 
     #[test]
-    fn a_settled_packing_has_seven_contacts_a_particle_and_a_loose_one_has_none() {
+    fn a_settled_packing_has_six_contacts_a_particle_and_a_loose_one_has_none() {
         let model = ContactModel::frictionless(Linear::new(100.0, 0.0));
         let trial = |density| packing(&particles(300), 10_000, &interactions(model), density, 1.0).unwrap();
         let settled = trial(Density::Settled);
         let mut touching = 0;
         settled.for_each_contact(&mut |contact| touching += usize::from(contact.overlap > 0.0));
         let contacts = 2.0 * touching as f64 / settled.particles().len() as f64;
-        assert!((contacts - 7.0).abs() < 0.3, "{contacts}");
+        assert!((contacts - 6.0).abs() < 0.3, "{contacts}");
         assert!((settled.particles().len() as f64 / 10_000.0 - 1.0).abs() < 0.25);
         assert_eq!(trial(Density::Loose).candidates(), 0);
     }

@@ -79,7 +79,7 @@ fn packed_step(particles: &[Particle], plan: &StagePlan, threads: usize) -> f64 
     scale * seconds_of_step(&mut trial)
 }
 
-/// Wall-clock time of a step [s]: the lower quartile of many short batches, so that moments in which the
+/// Wall-clock time of a step [s]: the lower decile of many short batches, so that moments in which the
 /// machine did something else do not count.
 fn seconds_of_step(simulation: &mut Simulation) -> f64 {
     let began = Instant::now();
@@ -97,7 +97,7 @@ fn seconds_of_step(simulation: &mut Simulation) -> f64 {
         times.push(time);
     }
     times.remove(0);
-    lower_quartile(times).unwrap_or(first)
+    lower_decile(times).unwrap_or(first)
 }
 
 /// Wall-clock time of something short [s].
@@ -107,12 +107,12 @@ fn seconds_of<T>(mut work: impl FnMut() -> T) -> f64 {
         black_box(work());
         began.elapsed().as_secs_f64()
     });
-    lower_quartile(times.collect()).unwrap_or(0.0)
+    lower_decile(times.collect()).unwrap_or(0.0)
 }
 
-fn lower_quartile(mut times: Vec<f64>) -> Option<f64> {
+fn lower_decile(mut times: Vec<f64>) -> Option<f64> {
     times.sort_by(f64::total_cmp);
-    times.get(times.len() / 4).copied()
+    times.get(times.len() / 10).copied()
 }
 
 /// For each stage, the time [s] in which gravity or a wall makes a packing of the sample; `None` where neither
