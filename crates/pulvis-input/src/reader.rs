@@ -17,13 +17,15 @@ pub struct TableReader<'d> {
     table: &'d Table,
     location: Location,
     asked: Vec<String>,
+    /// Unknown keys that have been reported.
+    reported: Vec<String>,
 }
 
 impl<'d> TableReader<'d> {
     pub(crate) fn new(context: &'d Context<'d>, table: &'d Table, path: String, span: Range<usize>) -> Self {
         let location = Location { span, path, replaced: false };
         context.open(&location);
-        Self { context, table, location, asked: Vec::new() }
+        Self { context, table, location, asked: Vec::new(), reported: Vec::new() }
     }
 
     /// The value at `key`, of whatever kind, if the key is there.
@@ -87,7 +89,7 @@ impl<'d> TableReader<'d> {
     }
 
     /// Refuses `kind = "lattice"` where the key is called otherwise.
-    fn check_selector_word(&self, key: &str, names: &[&str]) -> Result<(), Reported> {
+    fn check_selector_word(&mut self, key: &str, names: &[&str]) -> Result<(), Reported> {
         let entries = &self.table.entries;
         let found = SELECTORS.iter().find_map(|&word| Some((word, entries.get(word)?)));
         let Some((word, entry)) = found.filter(|_| !entries.contains_key(key)) else { return Ok(()) };
@@ -95,6 +97,7 @@ impl<'d> TableReader<'d> {
         let location = Location { span: entry.key_span.clone(), path, replaced: false };
         let problem = Problem::UnknownKey { similar: Some(key.to_owned()) };
         let help = format!("`{key}` is {}", Name(names).describe());
+        self.reported.push(word.to_owned());
         Err(self.context.report(&location, problem, Some(help)))
     }
 
@@ -188,8 +191,8 @@ impl<'d> TableReader<'d> {
     /// Closes the table: every key that nobody asked for is reported.
     pub fn finish(self) {
         self.context.close(&self.location);
-        let unknown =
-            self.table.in_order().into_iter().filter(|(key, _)| !self.asked.iter().any(|a| a == key));
+        let is_known = |key: &str| self.asked.iter().chain(&self.reported).any(|known| known == key);
+        let unknown = self.table.in_order().into_iter().filter(|(key, _)| !is_known(key));
         for (key, entry) in unknown {
             // A key that stands here already was not the one that was meant.
             let absent = |known: &&str| !self.table.entries.contains_key(*known);

@@ -6,7 +6,7 @@ use crate::list::Vector;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use crate::shape::{Choice, Name};
+use crate::shape::Choice;
 use pulvis_boundary::{Cylinder, CylinderSide, Domain, Plane, WallShape};
 use pulvis_math::{Dimension, Vector3};
 
@@ -21,7 +21,7 @@ type Placed = (WallShape, Vector3, Option<f64>);
 /// Reads `kind` and the keys that go with it.
 pub(super) fn read_shape(table: &mut TableReader<'_>, domain: Option<&Domain>) -> Result<Placed, Reported> {
     let periodic = domain.map_or([false; 3], |domain| domain.periodic);
-    match table.or("kind", Name(WallShape::NAMES), "plane") {
+    match table.selector_or("kind", WallShape::NAMES, "plane") {
         Ok("cylinder") => read_cylinder(table, periodic),
         Ok(_) => read_plane(table, periodic),
         Err(reported) => {
