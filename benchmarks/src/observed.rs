@@ -26,7 +26,7 @@ pub(crate) struct Observed {
 
 impl Observed {
     /// Looks at the present state.
-    pub(crate) fn of(simulation: &mut Simulation) -> Self {
+    pub(crate) fn of(simulation: &Simulation) -> Self {
         let (mut pairs, mut at_walls, mut overlaps) = (0, 0, 0.0);
         simulation.for_each_contact(&mut |contact| match contact.second {
             ContactPartner::Particle(_) if contact.overlap > 0.0 => {

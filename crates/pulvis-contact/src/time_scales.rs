@@ -16,25 +16,37 @@ impl ContactModel {
     /// k_r L² (1/I_i + 1/I_j), combine where a_i/I_i differs from a_j/I_j. Dashpots count with their
     /// rates γ/m_r and so on. Solid spheres, I = 2/5 m a².
     pub fn shortest_contact_time(&self, body_i: (f64, f64), body_j: Option<(f64, f64)>) -> f64 {
-        let (mass_i, radius_i) = body_i;
-        let pair = match body_j {
-            Some((mass_j, radius_j)) => Pair::spheres(mass_i, mass_j, radius_i, radius_j),
-            None => Pair::wall(mass_i, radius_i),
-        };
+        let pair = pair_of(body_i, body_j);
         let modes = Modes::new(&pair, body_i, body_j);
         let laws = &self.laws;
-        let normal = self.normal.max_stiffness(&pair, &laws.expected);
         let radius = self.normal.expected_contact_radius(&pair, &laws.expected);
         let stiffness = |law: &Option<Friction>| law.as_ref().map_or(0.0, |law| law.max_stiffness(radius));
         let dashpot = |law: &Option<Friction>| law.as_ref().map_or(0.0, Friction::dashpot);
-        let squares = (normal.max(laws.noncontact.max_stiffness(&pair)) * pair.inverse_reduced_mass())
+        let (normal_stiffness, normal_dashpot) = self.steepest_normal(body_i, body_j);
+        let squares = (normal_stiffness * pair.inverse_reduced_mass())
             .max(modes.highest(stiffness(&laws.sliding), stiffness(&laws.rolling)))
             .max(modes.turning * stiffness(&laws.torsion));
-        let normal_dashpot = self.normal.dashpot(&pair) + laws.viscosity.largest_coefficient(&pair, normal);
         let rates = (normal_dashpot * pair.inverse_reduced_mass())
             .max(modes.highest(dashpot(&laws.sliding), dashpot(&laws.rolling)))
             .max(modes.turning * dashpot(&laws.torsion));
         PI / squares.sqrt().max(rates)
+    }
+
+    /// The steepest slope [N/m] of the force along the normal over all branches, and the largest coefficient of its
+    /// dashpots [kg/s], for bodies with masses [kg] and radii [m] (`None`: a wall). Laws whose stiffness has no bound
+    /// take it from the loading that is expected.
+    pub fn steepest_normal(&self, body_i: (f64, f64), body_j: Option<(f64, f64)>) -> (f64, f64) {
+        let pair = pair_of(body_i, body_j);
+        let elastic = self.normal.max_stiffness(&pair, &self.laws.expected);
+        let dashpot = self.normal.dashpot(&pair) + self.laws.viscosity.largest_coefficient(&pair, elastic);
+        (elastic.max(self.laws.noncontact.max_stiffness(&pair)), dashpot)
+    }
+}
+
+fn pair_of((mass_i, radius_i): (f64, f64), body_j: Option<(f64, f64)>) -> Pair {
+    match body_j {
+        Some((mass_j, radius_j)) => Pair::spheres(mass_i, mass_j, radius_i, radius_j),
+        None => Pair::wall(mass_i, radius_i),
     }
 }
 

@@ -96,9 +96,10 @@ impl Ledger {
         self.stored() + self.dissipated() - self.work() - self.initial + (self.outflow - self.inflow)
     }
 
-    /// The closing error over the scale [1]; zero where nothing has moved yet.
+    /// The closing error over the scale [1]; zero where nothing has moved yet, and NaN where any energy is NaN or
+    /// infinite.
     pub fn relative_error(&self) -> f64 {
-        if self.scale > 0.0 { self.closing_error() / self.scale } else { 0.0 }
+        if self.scale == 0.0 { 0.0 } else { self.closing_error() / self.scale }
     }
 
     /// The names of all accounts with their values [J], in the order of output tables.
@@ -202,6 +203,15 @@ mod tests {
         assert_eq!(ledger.closing_error(), 0.0);
         assert_eq!(Ledger { work_servo: 3.0, ..ledger }.relative_error(), -0.5);
         assert_eq!(Ledger { inflow: 2.0, outflow: 5.0, ..ledger }.closing_error(), 3.0);
+    }
+
+    #[test]
+    fn an_energy_that_is_not_finite_is_no_small_error() {
+        for energy in [f64::NAN, f64::INFINITY] {
+            let ledger = Ledger { kinetic_translation: energy, scale: energy, ..Ledger::default() };
+            assert!(ledger.relative_error().is_nan());
+        }
+        assert_eq!(Ledger::default().relative_error(), 0.0);
     }
 
     #[test]

@@ -28,6 +28,9 @@ pub use pulvis_boundary::{Background, Domain};
 pub use pulvis_math::InstructionSet;
 pub use region::Region;
 pub use simulation::{
-    ListState, ParticleState, Setup, SetupError, Simulation, State, StateError, StepError, WallRecord,
+    Alarm, Limits, ListState, ParticleState, Setup, SetupError, Simulation, State, StateError, StepError,
+    WallRecord,
 };
-pub use time_step::{ShortestContact, shortest_contact};
+pub use time_step::{
+    MotionKind, ShortestContact, ShortestMotion, TouchingAtOnce, shortest_contact, shortest_motion,
+};

@@ -1,8 +1,153 @@
-//! The shortest contact of a system, which sets its time step.
+//! The shortest motion of a system, which sets its time step.
+//!
+//! Velocity-Verlet whose dashpots see the predicted velocity v + dt a of the end of the step has the recurrence
+//!
+//! x'' − 2 x' + x = −w² x' − h (3/2 x' − 2 x + x°/2),  w = ω dt,  h = (γ/m) dt,
+//!
+//! of four positions x°, x, x', x'' in a row. Its characteristic polynomial
+//! λ³ − (2 − w² − 3/2 h) λ² + (1 − 2 h) λ + h/2 has all roots within the unit circle where w² + 4 h < 4: a spring is
+//! stable up to ω dt = 2, a dashpot alone only up to γ dt/m = 1. Rates of dashpots that are not those of a pair therefore
+//! count twice. At the shortest contact over ten, the longest step that the laboratory takes, springs stay at w = 0.31 and
+//! have room for the four times stiffer modes of a dense packing.
+
+use std::f64::consts::PI;
 
 use crate::contacts::Interactions;
 use crate::particles::{MaterialIndex, Particle};
 use crate::walls::Wall;
+use pulvis_boundary::Background;
+
+/// The shortest motion that a system can make: what the time step has to resolve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShortestMotion {
+    /// π over its frequency, or over twice the rate of its damping [s].
+    pub duration: f64,
+    /// What moves.
+    pub kind: MotionKind,
+}
+
+/// What moves in a system.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum MotionKind {
+    /// A contact.
+    Contact(ShortestContact),
+    /// A servo wall on the contacts of all particles that can touch it at once.
+    WallOnContacts {
+        /// Index of the wall.
+        wall: usize,
+        /// The number of particles, at most.
+        contacts: f64,
+    },
+    /// A servo wall that its own damping, or the dashpots of its contacts, slow down.
+    WallDamping {
+        /// Index of the wall.
+        wall: usize,
+    },
+    /// The lightest particle that the background's drag slows down.
+    Drag,
+    /// The lightest particle whose rotation the background's drag slows down.
+    RotationalDrag,
+}
+
+/// The shortest motion of the system: of contacts (see [`shortest_contact`]), of walls that follow a pressure, and of
+/// particles in the background's drag. `None` where nothing moves but freely.
+///
+/// A servo wall of mass M on N contacts of stiffness k oscillates with ω² = N k/M against particles that stand still;
+/// together with their own motion ω² is at most N k/M + k/m. Two spheres of radius a and b that touch a plane do so at a
+/// distance of 2 √(a b) at least, so that disks of the smallest radius around all touching points are disjoint: at most
+/// A/(π a²) particles touch a face of area A, and at most all. Overlaps and edges, which this leaves out, are some percent;
+/// the least number of steps in the shortest motion leaves room for a hundredfold.
+pub fn shortest_motion(
+    particles: &[Particle],
+    interactions: &Interactions,
+    walls: &[Wall],
+    background: &Background,
+) -> Option<ShortestMotion> {
+    let mut motions = Vec::new();
+    if let Some(contact) = shortest_contact(particles, interactions, walls) {
+        motions.push(ShortestMotion { duration: contact.duration, kind: MotionKind::Contact(contact) });
+    }
+    for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.present) {
+        if let Some(inertia) = wall.motion.law().mass_and_damping() {
+            motions.extend(wall_motions(particles, interactions, walls, index, inertia));
+        }
+    }
+    if let Some(lightest) = particles.iter().map(|particle| particle.mass).reduce(f64::min) {
+        // The torque γ a² ω on the inertia 2/5 m a².
+        for (coefficient, kind) in [
+            (background.drag, MotionKind::Drag),
+            (2.5 * background.rotational_drag, MotionKind::RotationalDrag),
+        ] {
+            motions.push(ShortestMotion { duration: damping_time(coefficient / lightest), kind });
+        }
+    }
+    motions.retain(|motion| motion.duration < f64::INFINITY);
+    motions.into_iter().min_by(|one, other| one.duration.total_cmp(&other.duration))
+}
+
+/// The time that a step has to resolve where a velocity falls with a `rate` [1/s].
+fn damping_time(rate: f64) -> f64 {
+    PI / (2.0 * rate)
+}
+
+/// The motions of a servo wall: on its contacts, and in its damping.
+fn wall_motions(
+    particles: &[Particle],
+    interactions: &Interactions,
+    walls: &[Wall],
+    index: usize,
+    (mass, damping): (f64, f64),
+) -> [ShortestMotion; 2] {
+    let touching = TouchingAtOnce::of(particles, interactions, walls, index);
+    let on_contacts = PI * (mass / touching.stiffness).sqrt();
+    let damping = damping_time((damping + touching.dashpot) / mass);
+    let contacts = touching.contacts;
+    [
+        ShortestMotion { duration: on_contacts, kind: MotionKind::WallOnContacts { wall: index, contacts } },
+        ShortestMotion { duration: damping, kind: MotionKind::WallDamping { wall: index } },
+    ]
+}
+
+/// Bounds on all contacts that a wall can have at the same time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TouchingAtOnce {
+    /// Their number.
+    pub contacts: f64,
+    /// The sum of their steepest slopes [N/m].
+    pub stiffness: f64,
+    /// The sum of their dashpots [kg/s].
+    pub dashpot: f64,
+}
+
+impl TouchingAtOnce {
+    /// For the wall at `index`; see [`shortest_motion`] for the bound.
+    pub fn of(particles: &[Particle], interactions: &Interactions, walls: &[Wall], index: usize) -> Self {
+        let wall = &walls[index];
+        let (mut all, mut largest) = (Self::default(), Self::default());
+        for (material, bodies) in extremes_by_material(particles) {
+            let Some(model) = interactions.get(material, wall.material) else { continue };
+            let count = particles.iter().filter(|particle| particle.material == material).count() as f64;
+            let slopes = bodies.map(|body| model.steepest_normal(body, None));
+            let stiffness = slopes[0].0.max(slopes[1].0);
+            let dashpot = slopes[0].1.max(slopes[1].1);
+            all.contacts += count;
+            all.stiffness += count * stiffness;
+            all.dashpot += count * dashpot;
+            largest.stiffness = largest.stiffness.max(stiffness);
+            largest.dashpot = largest.dashpot.max(dashpot);
+        }
+        let smallest = particles.iter().map(|particle| particle.radius).fold(f64::INFINITY, f64::min);
+        let room = wall.area.of(walls).map_or(f64::INFINITY, |area| area / (PI * smallest * smallest));
+        let contacts = all.contacts.min(room.ceil());
+        Self {
+            contacts,
+            // Zero contacts of infinite room are none.
+            stiffness: all.stiffness.min(contacts * largest.stiffness),
+            dashpot: all.dashpot.min(contacts * largest.dashpot),
+        }
+    }
+}
 
 /// The shortest contact that a system can have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,10 +224,12 @@ fn extremes_by_material(particles: &[Particle]) -> Vec<(MaterialIndex, [(f64, f6
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+    use pulvis_contact::viscosity::{Constant, Viscosity};
     use pulvis_contact::{ContactModel, Linear};
     use pulvis_math::Vector3;
 
     use super::*;
+    use crate::walls::{FaceArea, PressureRamp, Servo, WallMotion};
     use pulvis_math::elementary;
 
     fn sphere(material: MaterialIndex, radius: f64) -> Particle {
@@ -109,7 +256,55 @@ mod tests {
     }
 
     #[test]
+    fn a_servo_wall_counts_with_the_contacts_that_fit_on_its_face() {
+        let mut model = ContactModel::frictionless(Linear::new(900.0, 0.0));
+        model.laws.viscosity = Viscosity::Constant(Constant { gamma_0: 1e-9 });
+        let mut interactions = Interactions::new(1);
+        interactions.set(0, 0, model);
+        let particles = vec![sphere(0, 1e-3); 100];
+        let motion_of = |mass: f64, damping: f64, area: f64| {
+            let pressure = PressureRamp { from: 1.0, to: 1.0, duration: 0.0 };
+            let mut lid = Wall::fixed("lid", 0, Vector3::zero(), Vector3::new(0.0, 0.0, -1.0));
+            lid.motion = WallMotion::Servo(Servo { pressure, mass, damping });
+            lid.area = FaceArea::Given(area);
+            shortest_motion(&particles, &interactions, &[lid], &Background::default()).unwrap()
+        };
+        // Disks of π mm² on a face of 10 π mm² and on a face with room for more than all.
+        for (area, contacts) in [(10.0 * PI * 1e-6, 10.0), (1.0, 100.0)] {
+            let light = motion_of(1e-7, 0.0, area * (1.0 - 1e-12));
+            assert_eq!(light.kind, MotionKind::WallOnContacts { wall: 0, contacts });
+            let expected = PI * (1e-7 / (contacts * 900.0)).sqrt();
+            assert!((light.duration / expected - 1.0).abs() < 1e-12, "{light:?}");
+        }
+        // With its damping and ten dashpots.
+        let damped = motion_of(1e-3, 1e3, 10.0 * PI * 1e-6 * (1.0 - 1e-12));
+        assert_eq!(damped.kind, MotionKind::WallDamping { wall: 0 });
+        assert!((damped.duration * 2.0 * (1e3 + 1e-8) / 1e-3 / PI - 1.0).abs() < 1e-12);
+        // A heavy wall leaves the contacts alone.
+        assert!(matches!(motion_of(1.0, 0.0, 1.0).kind, MotionKind::Contact(_)));
+    }
+
+    #[test]
+    fn drag_counts_for_the_lightest_particle() {
+        let mut interactions = Interactions::new(1);
+        interactions.set(0, 0, ContactModel::frictionless(Linear::new(100.0, 0.0)));
+        let particles = [sphere(0, 2e-3), sphere(0, 1e-3)];
+        let light = particles[1].mass;
+        let motion =
+            |background: Background| shortest_motion(&particles, &interactions, &[], &background).unwrap();
+        let drag = motion(Background { drag: 1.0, ..Background::default() });
+        assert_eq!((drag.kind, drag.duration), (MotionKind::Drag, PI / (2.0 * (1.0 / light))));
+        let turning = motion(Background { rotational_drag: 1.0, ..Background::default() });
+        assert_eq!(
+            (turning.kind, turning.duration),
+            (MotionKind::RotationalDrag, PI / (2.0 * (2.5 / light)))
+        );
+        assert!(matches!(motion(Background::default()).kind, MotionKind::Contact(_)));
+    }
+
+    #[test]
     fn without_particles_there_is_no_contact() {
         assert_eq!(shortest_contact(&[], &Interactions::new(1), &[]), None);
+        assert_eq!(shortest_motion(&[], &Interactions::new(1), &[], &Background::default()), None);
     }
 }

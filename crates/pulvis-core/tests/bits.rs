@@ -106,7 +106,7 @@ fn state(simulation: &Simulation) -> Bits {
 }
 
 /// The ledger, account by account.
-fn accounts(simulation: &mut Simulation) -> Bits {
+fn accounts(simulation: &Simulation) -> Bits {
     let accounts = simulation.ledger().accounts();
     accounts.into_iter().map(|(name, energy)| (name.to_string(), vec![energy.to_bits()])).collect()
 }
@@ -125,8 +125,8 @@ fn assert_same(way: Way, found: &Bits, expected: &Bits) {
 
 /// Advances the system in every way that is offered, and answers with what the plainest came to.
 fn assert_the_same_bits_in_every_way(setup: &Setup, steps: u64) -> Simulation {
-    let mut plainest = Way::plainest().advance(setup, steps);
-    let (state_expected, accounts_expected) = (state(&plainest), accounts(&mut plainest));
+    let plainest = Way::plainest().advance(setup, steps);
+    let (state_expected, accounts_expected) = (state(&plainest), accounts(&plainest));
     let mut ways = Vec::new();
     for (number, &instructions) in InstructionSet::available().iter().enumerate() {
         // Every number of threads with every instruction set, alternately with and without the ledger.
@@ -137,10 +137,10 @@ fn assert_the_same_bits_in_every_way(setup: &Setup, steps: u64) -> Simulation {
     }
     ways.push(Way { ledger: false, ..Way::plainest() });
     for way in ways {
-        let mut simulation = way.advance(setup, steps);
+        let simulation = way.advance(setup, steps);
         assert_same(way, &state(&simulation), &state_expected);
         if way.ledger {
-            assert_same(way, &accounts(&mut simulation), &accounts_expected);
+            assert_same(way, &accounts(&simulation), &accounts_expected);
         }
     }
     assert!(plainest.rebuilds() > 2, "only {} new lists of candidates", plainest.rebuilds());
@@ -166,7 +166,7 @@ fn linear_contacts_that_slide_have_the_same_bits_however_they_are_computed() {
     let pressure = PressureRamp { from: 0.0, to: 200.0, duration: 1e-3 };
     setup.walls[lid].motion = WallMotion::Servo(Servo { pressure, mass: 1e-5, damping: 1e-2 });
     setup.walls[lid].area = FaceArea::Given(edge * edge);
-    let mut simulation = assert_the_same_bits_in_every_way(&setup, 1200);
+    let simulation = assert_the_same_bits_in_every_way(&setup, 1200);
     let [pressing, _] = touching(&simulation);
     assert!(pressing > 150, "only {pressing} contacts: too little to disagree about");
     assert!(simulation.wall_force(lid).norm() > 0.0);
@@ -181,7 +181,7 @@ fn viscous_luding_contacts_that_slide_roll_twist_and_attract_have_the_same_bits_
     let mut setup = implosion(500, edge, 6, model);
     setup.walls = cube_of_walls(edge);
     setup.background = Background { drag: 1e-7, ..gravity(9.81) };
-    let mut simulation = assert_the_same_bits_in_every_way(&setup, 700);
+    let simulation = assert_the_same_bits_in_every_way(&setup, 700);
     let [pressing, pulling] = touching(&simulation);
     assert!(pressing > 300 && pulling > 10, "{pressing} pressing, {pulling} pulling");
     let ledger = simulation.ledger();
@@ -250,7 +250,7 @@ fn grains_in_a_drum_that_rotates_have_the_same_bits_however_they_are_computed() 
     let motion = WallMotion::Rotation(Rotation { angular_velocity: 60.0 });
     let drum = Cylinder { axis, radius: 14.5 * RADIUS, side: CylinderSide::Inside };
     setup.walls = vec![Wall { motion, ..Wall::of_shape("drum", 0, middle, drum) }];
-    let mut simulation = assert_the_same_bits_in_every_way(&setup, 800);
+    let simulation = assert_the_same_bits_in_every_way(&setup, 800);
     let mut at_wall = 0;
     simulation.for_each_contact(&mut |contact| {
         at_wall += usize::from(matches!(contact.second, ContactPartner::Wall(_)));

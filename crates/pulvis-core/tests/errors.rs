@@ -7,7 +7,9 @@ use common::*;
 use pulvis_contact::NonContact;
 use pulvis_contact::noncontact::Reversible;
 use pulvis_core::walls::{Cosine, Extent, FaceArea, PressureRamp, Servo, Velocity, Wall, WallMotion};
-use pulvis_core::{Background, Domain, Interactions, Particle, Setup, SetupError, Simulation, StepError};
+use pulvis_core::{
+    Alarm, Background, Domain, Interactions, Particle, Setup, SetupError, Simulation, StepError,
+};
 use pulvis_math::Vector3;
 
 fn one() -> Setup {
@@ -105,15 +107,15 @@ fn a_wall_that_follows_a_pressure_needs_an_area() {
 }
 
 #[test]
-fn a_particle_whose_position_is_no_number_is_reported_lost() {
+fn a_particle_whose_position_is_not_a_number_is_reported_lost() {
     let mut setup = one();
     setup.particles.push(sphere(vector(5.0 * RADIUS, 0.0, 0.0), Vector3::zero(), RADIUS));
     setup.particles.push(sphere(vector(9.0 * RADIUS, 0.0, 0.0), vector(0.0, 1.0, 0.0), RADIUS));
     // More drag than a step can follow; what does not move feels none of it.
     setup.background.drag = 1e308;
     let mut simulation = Simulation::new(setup).unwrap();
-    let error = simulation.advance(10).unwrap_err();
-    assert!(matches!(error, StepError::Lost { id: 2, .. }), "{error}");
+    let StepError { alarm, .. } = simulation.advance(10).unwrap_err();
+    assert!(matches!(alarm, Alarm::ParticleLost { id: 2, .. }), "{alarm}");
 }
 
 #[test]
@@ -121,7 +123,8 @@ fn two_particles_in_the_same_place_are_reported_lost() {
     let mut setup = one();
     setup.particles.push(setup.particles[0]);
     let mut simulation = Simulation::new(setup).unwrap();
-    assert!(matches!(simulation.step(), Err(StepError::Lost { step: 1, .. })));
+    let StepError { step, alarm, .. } = simulation.step().unwrap_err();
+    assert!(step == 1 && matches!(alarm, Alarm::ParticleLost { quantity: "position", .. }), "{alarm}");
 }
 
 #[test]

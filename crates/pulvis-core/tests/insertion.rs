@@ -178,7 +178,7 @@ fn whether_particles_stand_there_from_the_start_or_are_inserted_before_the_first
     // Contacts add up in another order; collisions multiply such rounding errors.
     let difference = difference(whole.domain(), &states(&whole), &states(&half));
     assert!(difference < 1e-9, "{difference}");
-    let [whole, half] = [whole, half].map(|mut simulation| simulation.ledger());
+    let [whole, half] = [whole, half].map(|simulation| simulation.ledger());
     assert!(whole.dissipated() > 0.0 && (half.dissipated() / whole.dissipated() - 1.0).abs() < 1e-9);
     assert!(((half.inflow + half.initial) / whole.initial - 1.0).abs() < 1e-12);
 }

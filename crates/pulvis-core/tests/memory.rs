@@ -34,9 +34,9 @@ fn how_often_candidates_are_listed_does_not_matter() {
         background: gravity(9.81),
         ..implosion(35, edge, 8, viscous_luding())
     };
-    let mut both = thin_and_thick(&powder, 3_000);
+    let both = thin_and_thick(&powder, 3_000);
     assert_same(&powder.domain, &both, 1e-9);
-    let [thin, thick] = both.each_mut().map(Simulation::ledger);
+    let [thin, thick] = both.each_ref().map(Simulation::ledger);
     assert!(thin.dissipated_plastic > 0.0 && thin.dissipated_sliding > 0.0);
     for ((name, one), (_, other)) in thin.accounts().into_iter().zip(thick.accounts()) {
         assert!((one - other).abs() < 1e-9 * thin.scale, "{name}: {one} {other}");
@@ -57,7 +57,7 @@ fn what_flies_out_of_one_piece_of_rows_is_met_in_another() {
         }
         let both = thin_and_thick(&powder, 2_500);
         assert_same(&powder.domain, &both, 1e-9);
-        let [thin, thick] = both.map(|mut simulation| simulation.ledger());
+        let [thin, thick] = both.map(|simulation| simulation.ledger());
         assert!(thin.dissipated_plastic > 0.02 * thin.scale, "{thin:?}");
         assert!((thin.dissipated() / thick.dissipated() - 1.0).abs() < 1e-9);
     }
@@ -277,7 +277,7 @@ fn a_memory_of_several_columns_does_not_depend_on_how_often_neighbours_are_liste
             assert!((one - two).abs() < 1e-12, "{bodies}: {one} {two}");
         }
     }
-    let [thin, thick] = both.map(|mut simulation| simulation.ledger());
+    let [thin, thick] = both.map(|simulation| simulation.ledger());
     assert!(thin.dissipated_plastic > 0.0 && thin.dissipated_adhesive > 0.0);
     for ((name, one), (_, other)) in thin.accounts().into_iter().zip(thick.accounts()) {
         assert!((one - other).abs() < 1e-9 * thin.scale, "{name}: {one} {other}");

@@ -11,6 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use protocol_scenarios::{Series, options, run, run_with, small_tablet, tablet};
 use pulvis_input::scenario::Scenario;
 use pulvis_lab::protocol::{Ending, PrepareError, RunError, RunOptions};
+use pulvis_math::{max_or_nan, min_or_nan};
 
 /// The small tablet with coarse steps, for what does not depend on them.
 fn coarse() -> Scenario {
@@ -67,12 +68,12 @@ fn the_servo_reaches_its_pressure_and_the_cosine_brings_the_plate_back() {
         assert!((stress / 1e10 - 1.0).abs() < 0.05, "{stress:e} along {axis}");
     }
     let displacement = series.of_stage("D_x", 3);
-    let farthest = displacement.iter().copied().fold(0.0, f64::max);
+    let farthest = displacement.iter().copied().fold(0.0, max_or_nan);
     // The row nearest to the turning point is half an interval of 1 ns away at most, of a period of 100 ns.
     assert!((farthest - 0.1).abs() < 1e-4, "{farthest}");
     assert!(displacement.last().unwrap().abs() < 1e-6);
     let force = series.of_stage("F_x", 3);
-    assert!(force.iter().copied().fold(0.0, f64::min) < -1e-3, "the sample is pulled");
+    assert!(force.iter().copied().fold(0.0, min_or_nan) < -1e-3, "the sample is pulled");
 }
 
 #[test]
@@ -194,7 +195,7 @@ fn what_only_the_particles_can_tell_is_refused_before_anything_is_written() {
         ([("spacing = \"10.8 um\"", "spacing = \"8 um\"")], "of its radius at the start"),
         (
             [("time = { steps_per_contact_time = 50 }", "time = { step = \"1e-9 s\" }")],
-            "longer than 1/10 of the shortest contact",
+            "longer than 1/10 of the shortest motion",
         ),
     ] {
         let parent = tempfile::tempdir().unwrap();

@@ -16,6 +16,7 @@
 mod array;
 mod dimension;
 pub mod elementary;
+mod extremes;
 mod prefetch;
 mod real;
 mod simd8;
@@ -23,6 +24,7 @@ mod vector;
 
 pub use array::{ArrayMask, F64Array};
 pub use dimension::Dimension;
+pub use extremes::{max_or_nan, min_or_nan};
 pub use prefetch::prefetch;
 pub use real::{Mask, Real};
 pub use simd8::{InstructionSet, Kernel, Packed4, Pointer, Routine, Simd4, Simd4Pair, Simd8, Task};

@@ -52,6 +52,12 @@ impl Motion for Cosine {
         Some(self.cycles * self.period)
     }
 
+    fn highest_speed(&self) -> f64 {
+        // Half-way to the amplitude, or where it stops before.
+        let peak = 0.5 * TAU / self.period * self.displacement.norm();
+        if self.cycles >= 0.25 { peak } else { peak * elementary::sin(TAU * self.cycles) }
+    }
+
     fn displacement(&self, _before: Vector3, time: f64, time_step: f64) -> Vector3 {
         self.displacement_at(time + time_step)
     }

@@ -46,6 +46,21 @@ pub trait Motion {
         None
     }
 
+    /// The highest speed that the motion leads the wall with [m/s].
+    fn highest_speed(&self) -> f64 {
+        self.constant_velocity().map_or(0.0, Vector3::norm)
+    }
+
+    /// The pressure on the wall's face at a time [s], [Pa]; `None` where there is none.
+    fn pressure(&self, _time: f64) -> Option<f64> {
+        None
+    }
+
+    /// Mass [kg] and damping [kg/s] of a wall that forces move.
+    fn mass_and_damping(&self) -> Option<(f64, f64)> {
+        None
+    }
+
     /// Displacement since the beginning at `time + time_step` [s], where it was `before` at `time` [m].
     fn displacement(&self, before: Vector3, _time: f64, _time_step: f64) -> Vector3 {
         before
@@ -188,6 +203,10 @@ mod tests {
             let push = Push { force: -1.0, speed: 0.0, area: 1.0, time: 0.0 };
             assert_eq!(motion.is_pushed(), motion.acceleration(&push).is_some(), "{name}");
             assert_eq!(motion.check(), Ok(()), "{name}");
+            assert_eq!(motion.is_pushed(), motion.mass_and_damping().is_some(), "{name}");
+            let fastest = (0..=1000).map(|instant| motion.velocity(f64::from(instant) * 4e-3).norm());
+            let fastest = fastest.fold(0.0, pulvis_math::max_or_nan);
+            assert!((fastest - motion.highest_speed()).abs() <= 1e-5 * fastest, "{name}: {fastest}");
             if let Some(velocity) = motion.constant_velocity() {
                 let moved = motion.displacement(Vector3::zero(), 7.0, 0.5);
                 assert_eq!((motion.velocity(7.0), moved), (velocity, velocity * 0.5), "{name}");

@@ -75,6 +75,14 @@ impl Motion for Servo {
         true
     }
 
+    fn pressure(&self, time: f64) -> Option<f64> {
+        Some(self.pressure.at(time))
+    }
+
+    fn mass_and_damping(&self) -> Option<(f64, f64)> {
+        Some((self.mass, self.damping))
+    }
+
     fn acceleration(&self, push: &Push) -> Option<f64> {
         let pressure = self.pressure.at(push.time);
         Some((push.force + pressure * push.area - self.damping * push.speed) / self.mass)

@@ -104,7 +104,7 @@ fn describe_stage(stage: &StageForecast) -> String {
     let shortest = stage
         .shortest
         .as_ref()
-        .map_or(String::new(), |(time, between)| format!(", shortest contact {time:.4e} s ({between})"));
+        .map_or(String::new(), |(time, between)| format!(", shortest motion {time:.4e} s ({between})"));
     format!("{}: time step {:.4e} s, {steps}{shortest}", stage.name, stage.time_step)
 }
 

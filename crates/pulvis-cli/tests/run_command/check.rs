@@ -22,7 +22,7 @@ fn check_says_what_the_run_will_be_like_and_writes_nothing() {
         "walls             x-low, x-high, y-low, y-high, z-low, z-high",
         "fully plastic above v_p = 3.0538e-1 m/s",
         "sticks from 1.5269e-1 to 3.5262e-1 m/s",
-        "mix: time step 5.7509e-6 s, 174 steps, shortest contact 2.8755e-4 s (grain-grain)",
+        "mix: time step 5.7509e-6 s, 174 steps, shortest motion 2.8755e-4 s (grain-grain)",
         "memory            ",
         " candidate contacts at the start, ",
         " with the contacts of a dense packing, 12 neighbours each: ",

@@ -29,6 +29,20 @@ fn the_folder_is_that_of_the_scenario_and_quiet_runs_say_nothing_on_their_way() 
     assert_files_are_complete(&place, "mixed");
 }
 
+#[test]
+fn a_run_that_cannot_be_right_ends_with_exit_code_1_and_never_says_done() {
+    let pressed = "until = { time = \"20 ms\" }\nwalls.z-high = { control = \"servo\", pressure = \"1e5 Pa\", mass = \"1 g\", damping = \"0 kg/s\" }";
+    let place = Place::new("alarm", &[("until = { time = \"1 ms\" }", pressed)]);
+    let output = place.pulvis(&["run", "s.toml", "--output", "out"]);
+    let message = error(&output);
+    assert_eq!((output.status.code(), out(&output).as_str()), (Some(1), ""), "{message}");
+    assert!(message.starts_with("error: stage `mix`, step "), "{message}");
+    assert!(message.contains("more than 1;") && message.contains("the contact is too soft"), "{message}");
+    assert!(message.contains("the files in out are complete up to there"), "{message}");
+    assert!(!message.contains("done") && !message.contains("time over"), "{message}");
+    assert_files_are_complete(&place, "out");
+}
+
 /// What is wrong with a scenario, and the whole message.
 fn refused(name: &str, changes: &[(&str, &str)], message: &str) {
     let place = Place::new(name, changes);
@@ -46,6 +60,30 @@ fn a_time_step_that_is_too_long_is_refused() {
         "step",
         &[("[[stages]]", "[time]\nstep = \"1 ms\"\n\n[[stages]]")],
         "error: s.toml:19:8: time.step: 1e-3 s is longer than 1/10 of the shortest contact (2.8755e-4 s, grain-grain); expected at most 2.8755e-5 s",
+    );
+}
+
+#[test]
+fn speeds_that_step_over_contacts_are_refused() {
+    refused(
+        "fast",
+        &[(
+            "until = { time = \"1 ms\" }",
+            "until = { time = \"1 us\" }\nwalls.z-high = { control = \"velocity\", velocity = [\"0 m/s\", \"0 m/s\", \"-100 m/s\"] }",
+        )],
+        "error: s.toml:21:51: stages[0].walls.z-high.velocity: the wall z-high moves at 1.0000e2 m/s, 0.575 radii of the smallest particle (1.0000e-3 m) in a time step of 5.7509e-6 s; expected at most 0.25 radii in a step, 4.3471e1 m/s",
+    );
+}
+
+#[test]
+fn a_piston_that_is_driven_through_the_floor_is_refused() {
+    refused(
+        "piston",
+        &[(
+            "until = { time = \"1 ms\" }",
+            "until = { time = \"10 ms\" }\nwalls.z-high = { control = \"velocity\", velocity = [\"0 m/s\", \"0 m/s\", \"-1 m/s\"] }",
+        )],
+        "error: s.toml:21:51: stages[0].walls.z-high.velocity: the walls z-low and z-high meet within 6.6016e-3 s of the stage, which lasts 1.0000e-2 s; expected space between walls that face each other",
     );
 }
 

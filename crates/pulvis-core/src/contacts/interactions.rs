@@ -1,6 +1,7 @@
 //! Which contact model rules which pair of materials.
 
 use pulvis_contact::{ContactModel, Pair};
+use pulvis_math::max_or_nan;
 
 use crate::particles::MaterialIndex;
 
@@ -119,7 +120,7 @@ impl Interactions {
 
     /// The longest range of all groups [m].
     pub(crate) fn longest_range(&self) -> f64 {
-        self.groups.iter().map(|group| group.range).fold(0.0, f64::max)
+        self.groups.iter().map(|group| group.range).fold(0.0, max_or_nan)
     }
 }
 
@@ -128,7 +129,7 @@ impl Interactions {
 fn longest_range(model: &ContactModel, [one, other]: [Option<f64>; 2]) -> f64 {
     let between = one.zip(other).map(|(one, other)| Pair::spheres(1.0, 1.0, one, other));
     let at_walls = [one, other].into_iter().flatten().map(|radius| Pair::wall(1.0, radius));
-    at_walls.chain(between).map(|pair| model.interaction_range(&pair)).fold(0.0, f64::max)
+    at_walls.chain(between).map(|pair| model.interaction_range(&pair)).fold(0.0, max_or_nan)
 }
 
 #[cfg(test)]

@@ -23,4 +23,4 @@ pub use records::{ContactRecords, MemoryError};
 pub(crate) use table::{ContactTable, Surroundings};
 pub use totals::ContactTotals;
 pub use view::{ContactPartner, ContactView};
-pub(crate) use view::{Views, view_contacts};
+pub(crate) use view::{Deep, Views, view_contacts};

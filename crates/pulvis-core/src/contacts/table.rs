@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use pulvis_contact::ContactEnergies;
-use pulvis_math::{F64Array, InstructionSet};
+use pulvis_math::{F64Array, InstructionSet, max_or_nan};
 use pulvis_parallel::hand_over::HandOver;
 
 use super::Interactions;
@@ -14,11 +14,12 @@ use super::listing::{Listing, Sources};
 use super::rebuild::MemoryStore;
 use super::sums::Sums;
 use super::totals::ContactTotals;
+use super::view::{Deep, Views};
 use crate::neighbours::{CellGrid, Moved, Skin};
 use crate::particles::{ForceTorque, MaterialIndex, Particles};
 use crate::shared::Shared;
 use crate::thread_pool::ThreadPool;
-use crate::walls::{Wall, WallForce};
+use crate::walls::{Wall, WallForce, WallNow};
 use pulvis_boundary::Images;
 
 /// The candidates and what they remember.
@@ -133,7 +134,7 @@ impl ContactTable {
             let own = moved(number);
             let others = chunk.dependents.iter().map(|&other| moved(other as usize).longest);
             chunk.approach = Approach {
-                pairs: own.longest + others.fold(own.second, f64::max),
+                pairs: own.longest + others.fold(own.second, max_or_nan),
                 walls: own.longest + walls,
             };
         }
@@ -198,6 +199,22 @@ impl ContactTable {
                 *sum += force;
             }
         }
+    }
+
+    /// The candidates that overlapped by more than `least` [m] when they were listed, which must be just now.
+    pub(crate) fn deeper_than<'a>(
+        &'a self,
+        least: f64,
+        particles: &'a Particles,
+        images: Images,
+        walls: &'a [WallNow],
+    ) -> impl Iterator<Item = Deep> + 'a {
+        self.groups().flat_map(move |group| {
+            let views = Views { group, particles, images, walls };
+            // The gap is that to the interaction range: no overlap is larger than its opposite.
+            let deep = (0..group.gap.len()).filter(move |&block| -group.gap[block] > least);
+            deep.flat_map(move |block| views.overlaps(block))
+        })
     }
 
     /// Number of candidate contacts.

@@ -41,6 +41,18 @@ pub struct ContactView<'a> {
     pub layout: &'a MemoryLayout,
 }
 
+/// A candidate contact and how deep it is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Deep {
+    /// Rows of the bodies; the second one of a wall means nothing.
+    pub(crate) rows: [usize; 2],
+    /// The wall, if it is with one.
+    pub(crate) wall: Option<usize>,
+    /// Overlap [m].
+    pub(crate) overlap: f64,
+}
+
+#[derive(Clone, Copy)]
 pub(crate) struct Views<'a> {
     pub(crate) group: &'a ContactGroup,
     pub(crate) particles: &'a Particles,
@@ -67,6 +79,20 @@ pub(crate) fn view_contacts(views: Views<'_>, see: &mut dyn FnMut(&ContactView<'
 }
 
 impl<'a> Views<'a> {
+    /// How deep each contact of a block is.
+    pub(crate) fn overlaps(self, block: usize) -> impl Iterator<Item = Deep> + 'a {
+        (0..self.group.occupancy(block)).filter_map(move |lane| {
+            let first = self.group.first_row(block, lane) as usize;
+            let overlap = self.geometry(first, block, lane)?.motion.overlap;
+            Some(match self.group.partner {
+                Partner::Particle => {
+                    Deep { rows: [first, self.group.second_row(block, lane) as usize], wall: None, overlap }
+                }
+                Partner::Wall => Deep { rows: [first; 2], wall: Some(self.group.wall(block)), overlap },
+            })
+        })
+    }
+
     fn look<'b>(
         &self,
         block: usize,

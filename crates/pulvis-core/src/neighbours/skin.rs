@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use pulvis_math::{InstructionSet, Packed4, Vector3};
+use pulvis_math::{InstructionSet, Packed4, Vector3, max_or_nan};
 
 use super::moved::{Moved, Survey};
 use crate::particles::Particles;
@@ -70,7 +70,7 @@ impl Skin {
                 let thin = before.scalar - now.scalar < 1.01 * thinnest;
                 if thin { (now.vector - before.vector).norm_squared() } else { 0.0 }
             };
-            positions[rows.clone()].iter().zip(&listed[rows]).map(way).fold(0.0, f64::max)
+            positions[rows.clone()].iter().zip(&listed[rows]).map(way).fold(0.0, max_or_nan)
         });
         // Over what the speeds that particles had when they were listed account for.
         let used = longest.sqrt() / thinnest * LIFE as f64 / self.steps.max(1) as f64;
@@ -132,10 +132,10 @@ impl Skin {
     }
 
     /// By how much any wall can have come nearer to anything since the list was made [m]. What rotates about its
-    /// axis of symmetry comes no nearer.
+    /// axis of symmetry comes no nearer. NaN if a wall stands nowhere.
     pub(crate) fn moved_walls(&self, walls: &[Wall]) -> f64 {
         let approach = |(now, before): (&Wall, &Vector3)| now.shape.approach(now.point - *before);
-        walls.iter().zip(&self.walls).map(approach).fold(0.0, f64::max)
+        walls.iter().zip(&self.walls).map(approach).fold(0.0, max_or_nan)
     }
 
     /// Whether the list still holds, when so much is `left` of any particle's skin [m] and walls have moved
@@ -155,7 +155,20 @@ mod tests {
     fn a_list_is_out_of_date_when_a_body_has_left_its_skin() {
         let skin = Skin { thickest: 0.2, thinnest: 0.1, ..Skin::default() };
         assert!(skin.holds(0.0, 0.1) && !skin.holds(0.0, 0.11));
-        assert!(!skin.holds(-1e-9, 0.0) && !skin.holds(f64::NAN, 0.0) && !skin.holds(0.1, f64::NAN));
+        assert!(!skin.holds(-1e-9, 0.0) && !skin.holds(f64::NAN, 0.0));
+    }
+
+    #[test]
+    fn a_list_is_out_of_date_when_any_wall_stands_nowhere() {
+        let mut skin = Skin { thickest: 0.2, thinnest: 0.1, ..Skin::default() };
+        let wall = |z: f64| Wall::fixed("wall", 0, Vector3::new(0.0, 0.0, z), Vector3::new(0.0, 0.0, 1.0));
+        skin.renew_walls(&[0.0, 1.0, 2.0].map(wall));
+        assert_eq!(skin.moved_walls(&[0.0, 1.05, 2.0].map(wall)), 1.05 - 1.0);
+        for lost in 0..3 {
+            let z = |number: usize| if number == lost { f64::NAN } else { number as f64 };
+            let moved = skin.moved_walls(&[0, 1, 2].map(|number| wall(z(number))));
+            assert!(!skin.holds(0.1, moved), "wall {lost} moved by {moved}");
+        }
     }
 
     #[test]

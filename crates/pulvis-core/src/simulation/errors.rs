@@ -157,20 +157,122 @@ pub enum SetupError {
     TimeStep(f64),
 }
 
-/// Why a step failed.
+/// Why a step failed: what happened in it cannot be right.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("step {step} (t = {time:.6e} s): {alarm}")]
+pub struct StepError {
+    /// In which step.
+    pub step: u64,
+    /// When [s].
+    pub time: f64,
+    /// What happened.
+    pub alarm: Alarm,
+}
+
+/// What cannot be right in the state of a simulation.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
-pub enum StepError {
-    /// A position is no number any more.
+pub enum Alarm {
+    /// A quantity of a particle is NaN or infinite.
     #[error(
-        "particle {id} was lost in step {step} (t = {time} s): its position is not a number; the time step is too long for the forces that act"
+        "the {quantity} of particle {id} is not a finite number; the time step is too long for the forces that act, or two centres coincide"
     )]
-    Lost {
+    ParticleLost {
         /// Which particle.
         id: ParticleId,
-        /// In which step.
-        step: u64,
-        /// When [s].
-        time: f64,
+        /// Position, velocity or angular velocity.
+        quantity: &'static str,
+    },
+    /// The position or velocity of a wall is NaN or infinite.
+    #[error(
+        "the {quantity} of wall `{wall}` is not a finite number; the time step is too long for its mass, its damping or the forces on it"
+    )]
+    WallLost {
+        /// Name of the wall.
+        wall: String,
+        /// Position or velocity.
+        quantity: &'static str,
+    },
+    /// A particle moves so far in a step that it can pass through others unseen.
+    #[error(
+        "particle {id} moves {radii:.3} radii of the smallest particle in one time step, more than {most}; it is too fast for this time step"
+    )]
+    ParticleTooFast {
+        /// Which particle.
+        id: ParticleId,
+        /// Its way in a step, over the smallest radius [1].
+        radii: f64,
+        /// The limit [1].
+        most: f64,
+    },
+    /// A wall moves so far in a step that particles can pass through it unseen.
+    #[error(
+        "wall `{wall}` moves {radii:.3} radii of the smallest particle in one time step, more than {most}; its pressure is too high for its mass, or it is driven too fast"
+    )]
+    WallTooFast {
+        /// Name of the wall.
+        wall: String,
+        /// Its way in a step, over the smallest radius [1].
+        radii: f64,
+        /// The limit [1].
+        most: f64,
+    },
+    /// Two walls that face each other have passed each other.
+    #[error(
+        "wall `{wall}` has passed wall `{opposite}`, which it faces, by {depth:.4e} m; what is between them cannot stop it: its motion goes too far, or its pressure is too high"
+    )]
+    WallsCrossed {
+        /// Name of a wall.
+        wall: String,
+        /// Name of the other one.
+        opposite: String,
+        /// How far they have passed each other [m].
+        depth: f64,
+    },
+    /// A particle has left the space in front of a wall.
+    #[error(
+        "the centre of particle {id} is behind wall `{wall}`: they overlap by {overlap:.3} of its radius, more than {most}; the contact is too soft for the forces that act, or the particle is too fast"
+    )]
+    BehindWall {
+        /// Which particle.
+        id: ParticleId,
+        /// Name of the wall.
+        wall: String,
+        /// Overlap over the radius [1].
+        overlap: f64,
+        /// The limit [1].
+        most: f64,
+    },
+    /// Two particles are pressed into each other.
+    #[error(
+        "particles {id} and {other} overlap by {overlap:.3} of the smaller radius, more than {most}; the contact is too soft for the forces that act, or they are too fast"
+    )]
+    Overlap {
+        /// A particle.
+        id: ParticleId,
+        /// The other one.
+        other: ParticleId,
+        /// Overlap over the smaller radius [1].
+        overlap: f64,
+        /// The limit [1].
+        most: f64,
+    },
+    /// An account of the energy ledger is NaN or infinite.
+    #[error(
+        "the account `{account}` of the energy ledger is not a finite number; the time step is too long for the forces that act"
+    )]
+    EnergyNotFinite {
+        /// Name of the account.
+        account: &'static str,
+    },
+    /// The energy ledger does not close.
+    #[error(
+        "the energy ledger does not close: its error is {error:.2e} of the largest energy in motion, more than {most:e}; the time step is too long for the forces that act"
+    )]
+    EnergyError {
+        /// Relative closing error [1].
+        error: f64,
+        /// The limit [1].
+        most: f64,
     },
 }

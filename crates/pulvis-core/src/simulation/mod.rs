@@ -4,16 +4,18 @@ mod checks;
 mod columns;
 mod errors;
 mod insertion;
+mod limits;
 mod lists;
 mod observe;
 mod state;
 mod steps;
 mod switch;
 
-pub use errors::{SetupError, StepError};
+pub use errors::{Alarm, SetupError, StepError};
+pub use limits::Limits;
 pub use state::{ListState, ParticleState, State, StateError, WallRecord};
 
-use pulvis_math::{InstructionSet, Packed4, Vector3};
+use pulvis_math::{InstructionSet, Packed4, Vector3, max_or_nan};
 
 use crate::contacts::{ContactTable, Interactions, MemoryStore};
 use crate::integrator::Kicked;
@@ -22,7 +24,7 @@ use crate::neighbours::{Moved, Skin};
 use crate::particles::{MaterialIndex, Particle, Particles};
 use crate::phases::Phases;
 use crate::thread_pool::ThreadPool;
-use crate::walls::{Extent, FaceArea, Shape, Wall, WallFeature, WallForce, WallMotion, WallNow, WallState};
+use crate::walls::{FaceArea, Shape, Wall, WallFeature, WallForce, WallMotion, WallNow, WallState};
 use pulvis_boundary::Background;
 use pulvis_boundary::Domain;
 
@@ -81,6 +83,8 @@ pub struct Simulation {
     chooses_skin: bool,
     mean_radius: f64,
     running: Running,
+    /// What stops the simulation.
+    limits: Limits,
     rebuilds: u64,
 }
 
@@ -145,7 +149,8 @@ impl Simulation {
         }
         simulation.evaluate_at_rest();
         simulation.running.forget_losses();
-        simulation.running.initial = simulation.ledger().stored();
+        let ledger = simulation.ledger();
+        (simulation.running.initial, simulation.running.scale) = (ledger.stored(), ledger.scale);
         Ok(simulation)
     }
 
@@ -184,6 +189,7 @@ impl Simulation {
             chooses_skin: true,
             mean_radius: 0.0,
             running: Running::default(),
+            limits: Limits::NONE,
             rebuilds: 0,
             walls,
         };
@@ -230,7 +236,7 @@ impl Simulation {
         if self.walls.len() > WallFeature::MOST_WALLS {
             return Err(SetupError::TooManyWalls { found: self.walls.len(), most: WallFeature::MOST_WALLS });
         }
-        let largest = self.particles.radius.iter().copied().fold(0.0, f64::max);
+        let largest = self.particles.radius.iter().copied().fold(0.0, max_or_nan);
         for (index, wall) in self.walls.iter().enumerate() {
             wall.shape
                 .check(largest)
@@ -279,24 +285,13 @@ impl Simulation {
 
     /// Two centres farther apart than this cannot act on each other before the next list [m].
     fn search_radius(&self) -> f64 {
-        let largest = self.particles.radius.iter().copied().fold(0.0, f64::max);
+        let largest = self.particles.radius.iter().copied().fold(0.0, max_or_nan);
         2.0 * largest + self.interactions.longest_range() + 2.0 * self.skin.thickest
     }
 
     /// The area over which a wall's force is spread [m²], where it is known.
     pub fn wall_area(&self, index: usize) -> Option<f64> {
-        let extent = |extent: &Extent| match *extent {
-            Extent::Given(length) => Some(length),
-            Extent::Between(one, other) => {
-                let (one, other) = (&self.walls[one], &self.walls[other]);
-                one.plane_normal().map(|normal| (other.point - one.point).dot(normal).abs())
-            }
-        };
-        match &self.walls[index].area {
-            FaceArea::Unknown => None,
-            FaceArea::Given(area) => Some(*area),
-            FaceArea::Product([one, other]) => Some(extent(one)? * extent(other)?),
-        }
+        self.walls[index].area.of(&self.walls)
     }
 
     /// The particles.

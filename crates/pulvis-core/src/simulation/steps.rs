@@ -1,5 +1,7 @@
 //! Steps in time.
 
+use pulvis_math::min_or_nan;
+
 use super::{Simulation, StepError};
 use crate::contacts::{Advance, Sweep};
 use crate::integrator::{Columns, HalfKicks, Step};
@@ -7,6 +9,10 @@ use crate::neighbours::Moved;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
 use crate::walls::WallForce;
+
+/// Steps between two looks at the energy: about a contact. A look costs a tenth of a step, and the fused kicks of one
+/// step.
+const ENERGY_SURVEY: u64 = 64;
 
 impl Simulation {
     /// One time step.
@@ -22,7 +28,8 @@ impl Simulation {
     /// made in one go, while the particles are in the cache.
     ///
     /// # Errors
-    /// A position is no number any more.
+    /// The state is no longer one that the system can have, or one of the [limits](Self::set_limits) is exceeded. The
+    /// simulation then stands in the middle of a step: look at it, but do not go on with it.
     pub fn advance(&mut self, steps: u64) -> Result<(), StepError> {
         if steps == 0 {
             return Ok(());
@@ -32,12 +39,26 @@ impl Simulation {
             self.move_walls();
             self.step += 1;
             self.renew_if_outdated()?;
-            let background_power = self.forces_and_kick(false, left > 0);
+            let surveys_energy = self.step.is_multiple_of(ENERGY_SURVEY);
+            let background_power = self.forces_and_kick(false, left > 0 && !surveys_energy);
             self.finish_walls();
             self.time += self.time_step;
             self.running.take_in(self.contacts.energies(), background_power, self.time_step);
+            if surveys_energy {
+                self.survey_energy()?;
+                if left > 0 {
+                    self.kick_and_drift();
+                }
+            }
         }
         Ok(())
+    }
+
+    /// Draws up the ledger: its scale grows with the energy that is in motion now, and its error must stay small.
+    fn survey_energy(&mut self) -> Result<(), StepError> {
+        let ledger = self.ledger();
+        self.running.scale = ledger.scale;
+        self.check_energy(&ledger)
     }
 
     /// First half kick and drift.
@@ -88,21 +109,15 @@ impl Simulation {
             self.contacts.close_gaps(|chunk| outcomes[chunk].moved, walls);
             return Ok(());
         }
-        let positions = &self.particles.position;
-        if let Some(lost) = positions.iter().position(|position| !position.vector.is_finite()) {
-            let id = self.particles.id[lost];
-            return Err(StepError::Lost { id, step: self.step, time: self.time });
-        }
+        self.check_movement()?;
         self.skin.adapt(&self.particles.position, &self.pool);
         self.renew_candidates();
-        Ok(())
+        self.check_overlaps()
     }
 
     /// What is left of the skin of whoever has least left of it, at the least [m].
     fn left_of_skins(&self) -> f64 {
-        // What is no number comes through.
-        let least = |one: f64, other: f64| if other < one || other.is_nan() { other } else { one };
-        self.outcomes.iter().map(|outcome| outcome.moved.left).fold(f64::INFINITY, least)
+        self.outcomes.iter().map(|outcome| outcome.moved.left).fold(f64::INFINITY, min_or_nan)
     }
 
     /// Looks how far the particles have really moved.
@@ -115,25 +130,31 @@ impl Simulation {
     }
 
     fn move_walls(&mut self) {
+        self.measure_faces();
         for index in 0..self.walls.len() {
-            if !self.walls[index].present {
-                continue;
+            if self.walls[index].present {
+                let since = self.time - self.wall_starts[index];
+                self.wall_states[index].advance(&mut self.walls[index], since, self.time_step);
             }
-            let area = self.wall_area(index);
-            let since = self.time - self.wall_starts[index];
-            self.wall_states[index].advance(&mut self.walls[index], area, since, self.time_step);
         }
     }
 
     fn finish_walls(&mut self) {
+        self.measure_faces();
         for index in 0..self.walls.len() {
-            if !self.walls[index].present {
-                continue;
+            if self.walls[index].present {
+                let since = self.time - self.wall_starts[index];
+                let load = -self.on_particles[index];
+                self.wall_states[index].finish(&self.walls[index], load, since, self.time_step);
             }
-            let area = self.wall_area(index);
-            let since = self.time - self.wall_starts[index];
-            let load = -self.on_particles[index];
-            self.wall_states[index].finish(&self.walls[index], load, area, since, self.time_step);
+        }
+    }
+
+    /// Takes the areas of all faces before any wall moves: a wall between others that move would otherwise be
+    /// pushed by the pressure on a face that is half that of before the step and half that of after it.
+    fn measure_faces(&mut self) {
+        for index in 0..self.walls.len() {
+            self.wall_states[index].area = self.wall_area(index);
         }
     }
 

@@ -25,6 +25,17 @@ pub enum FaceArea {
     Product([Extent; 2]),
 }
 
+impl FaceArea {
+    /// The area [m²] among `walls` as they stand, if it is known.
+    pub fn of(&self, walls: &[Wall]) -> Option<f64> {
+        match self {
+            Self::Unknown => None,
+            Self::Given(area) => Some(*area),
+            Self::Product([one, other]) => Some(one.of(walls)? * other.of(walls)?),
+        }
+    }
+}
+
 /// A length across the sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extent {
@@ -32,6 +43,19 @@ pub enum Extent {
     Given(f64),
     /// The distance between the two walls at these indices in the list of walls.
     Between(usize, usize),
+}
+
+impl Extent {
+    /// The length [m] among `walls` as they stand, `None` if there are no such walls.
+    fn of(&self, walls: &[Wall]) -> Option<f64> {
+        match *self {
+            Self::Given(length) => Some(length),
+            Self::Between(one, other) => {
+                let (one, other) = (walls.get(one)?, walls.get(other)?);
+                one.plane_normal().map(|normal| (other.point - one.point).dot(normal).abs())
+            }
+        }
+    }
 }
 
 /// A wall.
@@ -100,6 +124,14 @@ impl Wall {
     pub fn distance(&self, from: Vector3) -> f64 {
         self.shape.surface(self.point, from).distance
     }
+
+    /// The distance to a parallel plane that it faces [m], negative where they have passed each other; `None` if they
+    /// do not face each other.
+    pub fn distance_to_facing(&self, other: &Self) -> Option<f64> {
+        // Normals of rotated boxes come with rounding errors.
+        let facing = (self.plane_normal()? + other.plane_normal()?).norm() < 1e-9;
+        facing.then_some(-self.offset()? - other.offset()?)
+    }
 }
 
 /// What a wall's motion keeps between steps.
@@ -119,7 +151,10 @@ pub(crate) struct WallState {
     pub(crate) work_servo: f64,
     /// Displacement since the motion began, for motions that are given as a function of time [m].
     travelled: Vector3,
-    displacement: Vector3,
+    /// Displacement in this step [m].
+    pub(crate) displacement: Vector3,
+    /// The area of the face where the wall stands, if it is known [m²].
+    pub(crate) area: Option<f64>,
 }
 
 impl WallState {
@@ -142,9 +177,9 @@ impl WallState {
     }
 
     /// Moves the wall over the step from `time` (since the motion began) to `time + time_step` [s].
-    pub(crate) fn advance(&mut self, wall: &mut Wall, area: Option<f64>, time: f64, time_step: f64) {
+    pub(crate) fn advance(&mut self, wall: &mut Wall, time: f64, time_step: f64) {
         let motion = wall.motion.law();
-        match motion.acceleration(&self.push(wall, self.velocity, area, time)) {
+        match motion.acceleration(&self.push(wall, self.velocity, time)) {
             None => {
                 let travelled = motion.displacement(self.travelled, time, time_step);
                 self.prescribe(travelled, motion.velocity(time + time_step), time_step);
@@ -169,19 +204,12 @@ impl WallState {
 
     /// Takes in the force and torque of the particles at the end of the step, books the work done on them
     /// (trapezoidal rule along the wall's path) and finishes the velocity of a servo.
-    pub(crate) fn finish(
-        &mut self,
-        wall: &Wall,
-        load: WallForce,
-        area: Option<f64>,
-        time: f64,
-        time_step: f64,
-    ) {
+    pub(crate) fn finish(&mut self, wall: &Wall, load: WallForce, time: f64, time_step: f64) {
         let turned = self.angular_velocity * time_step;
         let along = (self.load.force + load.force).dot(self.displacement);
         let work = -0.5 * (along + (self.load.torque + load.torque) * turned);
         self.load = load;
-        let push = self.push(wall, self.velocity_predicted, area, time + time_step);
+        let push = self.push(wall, self.velocity_predicted, time + time_step);
         match wall.motion.law().acceleration(&push) {
             None => self.work_prescribed += work,
             Some(acceleration) => {
@@ -193,10 +221,10 @@ impl WallState {
     }
 
     /// What acts on the wall at `time` [s] since the motion began, where it has a `velocity` [m/s].
-    fn push(&self, wall: &Wall, velocity: Vector3, area: Option<f64>, time: f64) -> Push {
+    fn push(&self, wall: &Wall, velocity: Vector3, time: f64) -> Push {
         let normal = wall.direction_of_push();
         let (force, speed) = (self.load.force.dot(normal), velocity.dot(normal));
-        Push { force, speed, area: area.unwrap_or(0.0), time }
+        Push { force, speed, area: self.area.unwrap_or(0.0), time }
     }
 
     /// What the contact loop needs to know at the end of the drift.

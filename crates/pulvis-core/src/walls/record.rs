@@ -16,6 +16,8 @@ impl WallState {
             work_servo,
             travelled,
             displacement,
+            // Measured anew in every step.
+            area: _,
         } = self;
         let mut writer = NumberWriter::default();
         writer.vector("velocity", *velocity);
@@ -43,6 +45,7 @@ impl WallState {
             work_servo: reader.number("work_servo")?,
             travelled: reader.vector("travelled")?,
             displacement: reader.vector("displacement")?,
+            area: None,
         };
         reader.finish()?;
         Ok(state)

@@ -7,7 +7,7 @@ use pulvis_contact::viscosity::{Constant, Viscosity};
 use pulvis_contact::{ContactModel, Friction, Linear, Luding, SpringSlider};
 use pulvis_core::walls::Wall;
 use pulvis_core::{Background, Domain, Interactions, Particle, Setup, Simulation, shortest_contact};
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, max_or_nan};
 use pulvis_packing::{gaussian_vector, random_positions, random_stream};
 
 pub const RADIUS: f64 = 0.5e-3;
@@ -87,11 +87,11 @@ pub fn advance_watching(simulation: &mut Simulation, steps: usize, every: usize)
     for step in 1..=steps {
         simulation.step().unwrap();
         if step % every == 0 || step == steps {
-            worst = worst.max(simulation.ledger().closing_error().abs());
+            worst = max_or_nan(worst, simulation.ledger().closing_error().abs());
         }
     }
     let scale = simulation.ledger().scale;
-    if scale > 0.0 { worst / scale } else { worst }
+    if scale == 0.0 { worst } else { worst / scale }
 }
 
 /// Frictionless undamped spheres at a solid fraction of 0.2 in a periodic cube, 0.1 m/s a component.
@@ -181,9 +181,10 @@ pub fn difference(domain: &Domain, these: &[State], those: &[State]) -> f64 {
     let one = |(this, that): (&State, &State)| {
         let position = nearest(this.position - that.position).norm() / RADIUS;
         let velocity = (this.velocity - that.velocity).norm();
-        position.max(velocity).max((this.angular_velocity - that.angular_velocity).norm() * RADIUS)
+        let angular_velocity = (this.angular_velocity - that.angular_velocity).norm() * RADIUS;
+        max_or_nan(max_or_nan(position, velocity), angular_velocity)
     };
-    these.iter().zip(those).map(one).fold(0.0, f64::max)
+    these.iter().zip(those).map(one).fold(0.0, max_or_nan)
 }
 
 /// Sum of the sizes of all momenta [kg m/s].

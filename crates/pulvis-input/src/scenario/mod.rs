@@ -38,6 +38,7 @@ mod axis;
 mod contacts;
 mod controls;
 mod domain;
+mod limits;
 mod materials;
 mod output;
 mod particles;
@@ -59,6 +60,7 @@ pub use arrangement::{Arrangement, Grain};
 pub use axis::{Axis, BoxFace, Side};
 pub use contacts::Contact;
 pub use controls::WallControl;
+pub use limits::Limits;
 pub use materials::Material;
 pub use output::{Dimensionless, Interval, OutputPlan, Snapshots};
 pub use particles::{ParticleGroup, VelocityPlan};
@@ -104,6 +106,8 @@ pub struct Scenario {
     pub time: TimeStep,
     /// The stages, at least one.
     pub stages: Vec<Stage>,
+    /// What stops the run.
+    pub limits: Limits,
     /// What is written.
     pub output: OutputPlan,
 }

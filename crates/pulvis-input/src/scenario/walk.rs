@@ -2,6 +2,7 @@
 
 use super::contacts::{Contact, MaterialUse, read_contacts};
 use super::domain::{read_background, read_domain};
+use super::limits::read_limits;
 use super::materials::{Material, read_materials};
 use super::output::read_output;
 use super::particles::{PlacedGroup, read_particles};
@@ -20,7 +21,7 @@ use pulvis_boundary::Background;
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 14] = [
     "title",
     "seed",
     "gravity",
@@ -33,6 +34,7 @@ const KEYS: [&str; 13] = [
     "walls",
     "time",
     "stages",
+    "limits",
     "output",
 ];
 
@@ -63,6 +65,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     let seed = root.or("seed", Integer::at_least(0), 1);
     let domain = read_domain(&mut root);
     let time = read_time(&mut root, TimeStep::default());
+    let limits = read_limits(&mut root);
     // Everything else speaks of materials.
     let (materials, fit) = read_materials(&mut root)?;
     let known = domain.as_ref().map_or(None, Option::as_ref);
@@ -99,6 +102,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         walls: walls.walls,
         time: time?,
         stages: Vec::new(),
+        limits: limits?,
         output: output?,
     };
     Ok((scenario, stages?, used.unwrap_or_default()))

@@ -15,7 +15,7 @@ use super::error::PrepareError;
 use super::folder;
 use super::measure::Measure;
 use super::memory::memory_forecast;
-use super::setup::{Prepared, between, prepare};
+use super::setup::{Prepared, describe_motion, prepare};
 use super::stage::LEAST_STEPS_TO_REST;
 use super::timing::stage_costs;
 use super::warnings::{damping_ratios, warnings};
@@ -93,7 +93,7 @@ pub struct StageForecast {
     pub name: String,
     /// Time step [s].
     pub time_step: f64,
-    /// The shortest contact [s] and whose it is.
+    /// The shortest motion [s] and whose it is.
     pub shortest: Option<(f64, String)>,
     /// Number of steps, where the duration is known; an upper limit where other rules may end the
     /// stage before.
@@ -280,7 +280,7 @@ fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForecast> {
             StageForecast {
                 name: stage.name.clone(),
                 time_step: plan.time_step,
-                shortest: plan.shortest.map(|contact| (contact.duration, between(scenario, &contact))),
+                shortest: plan.shortest.map(|motion| (motion.duration, describe_motion(scenario, &motion))),
                 steps: duration.map(|duration| (duration / plan.time_step).ceil() as u64),
                 least_steps: least_steps(stage, plan.time_step, duration),
                 open_ended: rules.are_open_ended(),

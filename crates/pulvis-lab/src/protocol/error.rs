@@ -76,13 +76,18 @@ pub enum RunError {
     /// It could not start.
     #[error(transparent)]
     Prepare(#[from] PrepareError),
-    /// A step failed.
-    #[error("stage `{stage}`: {source}")]
+    /// What happened in a step cannot be right.
+    #[error(
+        "stage `{stage}`, {source}\n  the run has stopped; the files in {} are complete up to there",
+        .folder.display()
+    )]
     Step {
         /// The stage.
         stage: String,
         /// Why.
         source: StepError,
+        /// The output folder.
+        folder: PathBuf,
     },
     /// Output could not be written.
     #[error(transparent)]

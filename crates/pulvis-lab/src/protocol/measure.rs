@@ -76,7 +76,7 @@ impl Measure {
     pub fn row(
         &self,
         scenario: &Scenario,
-        simulation: &mut Simulation,
+        simulation: &Simulation,
         stage: usize,
         start_lengths: [Option<f64>; 3],
     ) -> Vec<f64> {

@@ -6,6 +6,7 @@
 mod check;
 mod disk;
 mod error;
+mod feasible;
 mod folder;
 mod measure;
 mod memory;

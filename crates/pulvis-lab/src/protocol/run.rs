@@ -5,9 +5,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use pulvis_core::walls::WallMotion;
-use pulvis_core::{InstructionSet, Simulation};
+use pulvis_core::{InstructionSet, Simulation, StepError};
 use pulvis_input::scenario::{Scenario, Snapshots as SnapshotPlan, WallControl};
 use pulvis_io::table::TimeSeriesWriter;
+use pulvis_math::max_or_nan;
 
 use super::error::{PrepareError, RunError};
 use super::folder::{OutputFolder, RECORD};
@@ -122,8 +123,15 @@ pub fn run(
     if let Some(instructions) = options.instructions {
         run.simulation.set_instructions(instructions);
     }
-    let stages = run.stages(stop, watch)?;
-    run.finish(stages)
+    match run.stages(stop, watch) {
+        Ok(stages) => run.finish(stages),
+        Err(error) => {
+            if matches!(error, RunError::Step { .. }) {
+                run.salvage();
+            }
+            Err(error)
+        }
+    }
 }
 
 /// Particles for which a further thread pays: with fewer, threads wait for each other longer than
@@ -214,9 +222,7 @@ impl<'a> Run<'a> {
         let mut pace = Pace::new(self.simulation.steps());
         let ending = loop {
             let steps = self.steps_to_next_look(&rules);
-            self.simulation
-                .advance(steps)
-                .map_err(|source| RunError::Step { stage: stage.name.clone(), source })?;
+            self.simulation.advance(steps).map_err(|source| self.stopped(number, source))?;
             if self.rows_due.now(&self.simulation) {
                 self.row(number, start_lengths)?;
             }
@@ -227,7 +233,7 @@ impl<'a> Run<'a> {
             if stop.load(Ordering::Relaxed) {
                 break Ending::Interrupted;
             }
-            if let Some(ending) = rules.ending(&mut self.simulation) {
+            if let Some(ending) = rules.ending(&self.simulation) {
                 break ending;
             }
             if pace.is_due(self.simulation.steps()) {
@@ -288,10 +294,16 @@ impl<'a> Run<'a> {
     }
 
     fn row(&mut self, stage: usize, start_lengths: [Option<f64>; 3]) -> Result<(), RunError> {
-        let row = self.measure.row(self.scenario, &mut self.simulation, stage + 1, start_lengths);
+        let row = self.measure.row(self.scenario, &self.simulation, stage + 1, start_lengths);
         self.writer.row(&row)?;
         self.rows.push(row);
-        Ok(())
+        // What is reported is right.
+        self.simulation.check_state().map_err(|source| self.stopped(stage, source))
+    }
+
+    fn stopped(&self, stage: usize, source: StepError) -> RunError {
+        let (stage, folder) = (self.scenario.stages[stage].name.clone(), self.output.path().to_path_buf());
+        RunError::Step { stage, source, folder }
     }
 
     fn frame(&mut self) -> Result<(), RunError> {
@@ -325,11 +337,22 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Completes the files of a run that has failed, and shows the state in which it did, as far as that is possible:
+    /// what failed is the error that counts.
+    fn salvage(mut self) {
+        let _ = self.frame();
+        let _ = self.writer.finish();
+        if self.scenario.output.plots {
+            let series = Series { measure: &self.measure, rows: &self.rows };
+            let _ = report::draw(self.scenario, &self.simulation, &series, &mut self.output);
+        }
+    }
+
     fn finish(mut self, stages: Vec<StageResult>) -> Result<RunSummary, RunError> {
         self.writer.finish()?;
         let error_column = self.measure.column("relative_error").unwrap_or(0);
         let errors = self.rows.iter().map(|row| row[error_column].abs());
-        let energy_error_max = errors.fold(0.0, f64::max);
+        let energy_error_max = errors.fold(0.0, max_or_nan);
         let series = Series { measure: &self.measure, rows: &self.rows };
         let pictures = if self.scenario.output.plots {
             report::draw(self.scenario, &self.simulation, &series, &mut self.output)?

@@ -2,14 +2,15 @@
 
 use pulvis_core::walls::{Extent, FaceArea, Wall};
 use pulvis_core::{
-    Background, ContactPartner, Domain, Interactions, MaterialIndex, Particle, Setup, ShortestContact,
-    Simulation, shortest_contact,
+    Background, ContactPartner, Domain, Interactions, Limits, MaterialIndex, MotionKind, Particle, Setup,
+    ShortestMotion, Simulation, shortest_motion,
 };
 use pulvis_input::scenario::{Contact, Scenario, Side, TimeStep, Wall as WallPlan, WallControl};
 
 use pulvis_input::Problem;
 
 use super::error::PrepareError;
+use super::feasible::check_feasible;
 use super::memory::refuse_too_many;
 use super::particles::generate;
 use super::refusal::refuse_setup;
@@ -34,8 +35,8 @@ pub struct StagePlan {
     pub background: Background,
     /// Time step [s].
     pub time_step: f64,
-    /// The shortest contact that the stage can have; `None` where nothing can meet.
-    pub shortest: Option<ShortestContact>,
+    /// The shortest motion that the stage can have; `None` where nothing can meet and nothing is slowed down.
+    pub shortest: Option<ShortestMotion>,
     /// Walls that are there.
     pub walls_present: Vec<bool>,
     /// What the stage changes of walls: place and control.
@@ -56,13 +57,15 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
     let setup = Setup {
         particles: particles.clone(),
         interactions: first.interactions.clone(),
-        walls,
+        walls: walls.clone(),
         domain,
         background: first.background,
         time_step: first.time_step,
     };
-    let simulation = Simulation::new(setup).map_err(|error| refuse_setup(scenario, &error))?;
+    let mut simulation = Simulation::new(setup).map_err(|error| refuse_setup(scenario, &error))?;
+    simulation.set_limits(Limits { energy_error: scenario.limits.energy_error, ..Limits::default() });
     check_overlaps(scenario, &simulation)?;
+    check_feasible(scenario, &particles, &walls, &stages)?;
     Ok(Prepared { simulation, stages, particles })
 }
 
@@ -87,9 +90,11 @@ fn stages(
         let wall_changes: Vec<(usize, WallControl)> = stage.controls.clone();
         for (place, control) in &wall_changes {
             walls[*place].present &= !matches!(control, WallControl::Removed);
+            walls[*place].motion = control.motion().unwrap_or_default();
         }
         let interactions = interactions(scenario, &stage.contacts);
-        let shortest = shortest_contact(particles, &interactions, &walls);
+        // Faces count as they were drawn: where walls move apart, the bound on contacts has room for more.
+        let shortest = shortest_motion(particles, &interactions, &walls, &stage.background);
         let time_step = time_step(scenario, stage.time, shortest, number)?;
         plans.push(StagePlan {
             interactions,
@@ -112,39 +117,62 @@ pub(super) fn interactions(scenario: &Scenario, contacts: &[Contact]) -> Interac
     interactions
 }
 
-/// The step of a stage: a fraction of the shortest contact, or a given one that is short enough.
+/// The step of a stage: a fraction of the shortest motion, or a given one that is short enough.
 fn time_step(
     scenario: &Scenario,
     plan: TimeStep,
-    shortest: Option<ShortestContact>,
+    shortest: Option<ShortestMotion>,
     stage: usize,
 ) -> Result<f64, PrepareError> {
-    let contact = shortest.map_or(f64::INFINITY, |shortest| shortest.duration);
-    match plan {
-        TimeStep::Auto { steps_per_contact_time } => Ok(contact / steps_per_contact_time),
-        TimeStep::Fixed(step) if step * TimeStep::LEAST_STEPS <= contact => Ok(step),
+    let duration = shortest.map_or(f64::INFINITY, |shortest| shortest.duration);
+    let (problem, help) = match plan {
+        // The engine refuses a step that is zero or infinite.
+        TimeStep::Auto { steps_per_contact_time } => return Ok(duration / steps_per_contact_time),
+        TimeStep::Fixed(step) if step * TimeStep::LEAST_STEPS <= duration => return Ok(step),
         TimeStep::Fixed(step) => {
             let least = TimeStep::LEAST_STEPS;
-            let between = shortest.map_or_else(String::new, |shortest| between(scenario, &shortest));
+            let (kind, whose) = shortest.map_or(("contact", String::new()), |shortest| match shortest.kind {
+                MotionKind::Contact(_) => ("contact", describe_motion(scenario, &shortest)),
+                _ => ("motion", describe_motion(scenario, &shortest)),
+            });
             let found = format!(
-                "{step:e} s is longer than 1/{least} of the shortest contact ({contact:.4e} s, {between})"
+                "{step:e} s is longer than 1/{least} of the shortest {kind} ({duration:.4e} s, {whose})"
             );
-            let expected = format!("at most {:.4e} s", contact / least);
-            let help = "take \"auto\", or soften the contact";
-            // A stage without a step of its own goes on with the one before.
-            let own = (0..=stage).rev().map(|stage| format!("stages[{stage}].time.step"));
-            let paths: Vec<String> = own.chain(["time.step".to_owned()]).collect();
-            let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
-            Err(scenario.mistake(&paths, Problem::rule(found, expected), help).into())
+            let help = match shortest.map(|shortest| shortest.kind) {
+                Some(MotionKind::WallOnContacts { .. }) => "take \"auto\", or a heavier wall",
+                Some(MotionKind::WallDamping { .. }) => "take \"auto\", or less damping, or a heavier wall",
+                Some(MotionKind::Drag | MotionKind::RotationalDrag) => "take \"auto\", or less drag",
+                _ => "take \"auto\", or soften the contact",
+            };
+            (Problem::rule(found, format!("at most {:.4e} s", duration / least)), help)
         }
-    }
+    };
+    // A stage without a step of its own goes on with the one before.
+    let own = (0..=stage).rev().map(|stage| format!("stages[{stage}].time.step"));
+    let paths: Vec<String> = own.chain(["time.step".to_owned()]).collect();
+    let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
+    Err(scenario.mistake(&paths, problem, help).into())
 }
 
-/// Which materials a contact is between, in words.
-pub fn between(scenario: &Scenario, contact: &ShortestContact) -> String {
+/// Whose motion it is, in words: the materials of a contact, a wall, or the drag.
+pub fn describe_motion(scenario: &Scenario, shortest: &ShortestMotion) -> String {
     let name = |index: MaterialIndex| scenario.materials[usize::from(index)].name.as_str();
-    let wall = if contact.at_wall { " wall" } else { "" };
-    format!("{}-{}{wall}", name(contact.material), name(contact.partner))
+    let wall_name = |index: usize| scenario.walls.get(index).map_or("", |wall| wall.name.as_str());
+    match shortest.kind {
+        MotionKind::Contact(contact) => {
+            let wall = if contact.at_wall { " wall" } else { "" };
+            format!("{}-{}{wall}", name(contact.material), name(contact.partner))
+        }
+        MotionKind::WallOnContacts { wall, contacts } => {
+            format!("the mass of the servo wall {} on up to {contacts:.0} contacts", wall_name(wall))
+        }
+        MotionKind::WallDamping { wall } => format!("the damping of the servo wall {}", wall_name(wall)),
+        MotionKind::Drag => "the drag of the background on the lightest particle".to_owned(),
+        MotionKind::RotationalDrag => {
+            "the rotational drag of the background on the lightest particle".to_owned()
+        }
+        _ => "another motion".to_owned(),
+    }
 }
 
 fn wall(scenario: &Scenario, plan: &WallPlan) -> Wall {
@@ -210,7 +238,7 @@ fn check_start(scenario: &Scenario, particles: &[Particle], walls: &[Wall]) -> R
 }
 
 /// The path of the group that a particle belongs to.
-fn group_path(scenario: &Scenario, id: usize) -> String {
+pub(super) fn group_path(scenario: &Scenario, id: usize) -> String {
     let mut first = 0;
     for (place, group) in scenario.particles.iter().enumerate() {
         first += group.count;

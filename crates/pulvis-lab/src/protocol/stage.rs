@@ -89,7 +89,7 @@ impl<'a> StageWatch<'a> {
     }
 
     /// Whether the stage ends now.
-    pub(super) fn ending(&mut self, simulation: &mut Simulation) -> Option<Ending> {
+    pub(super) fn ending(&mut self, simulation: &Simulation) -> Option<Ending> {
         // Half a step of tolerance: sums of time steps are not exact.
         let elapsed = simulation.time() - self.start_time + 0.5 * simulation.time_step();
         let cycles = cycles_duration(simulation);
@@ -113,12 +113,14 @@ impl<'a> StageWatch<'a> {
         (self.calm_looks >= LOOKS_IN_A_ROW).then_some(Ending::AtRest)
     }
 
-    fn is_calm(&self, simulation: &mut Simulation, elapsed: f64) -> bool {
+    fn is_calm(&self, simulation: &Simulation, elapsed: f64) -> bool {
         let Some(limit) = self.rules.kinetic_to_elastic else { return false };
         if elapsed < self.rules.minimum_time {
             return false;
         }
         let ledger = simulation.ledger();
+        // Without a contact the ratio means nothing: only what does not move at all is at rest then. That a sample has
+        // flown apart is no rest; it stops the run.
         ledger.kinetic() <= limit * ledger.elastic()
     }
 

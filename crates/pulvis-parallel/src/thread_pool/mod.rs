@@ -100,7 +100,7 @@ impl ThreadPool {
 
     /// The largest of what `part` answers for row ranges, zero at least.
     pub fn largest_over(&self, rows: usize, part: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
-        self.parts_over(rows, 0.0, part).into_iter().fold(0.0, f64::max)
+        self.parts_over(rows, 0.0, part).into_iter().fold(0.0, pulvis_math::max_or_nan)
     }
 
     fn parts_over<T: Copy + Send + Sync>(

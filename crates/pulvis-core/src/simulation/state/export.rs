@@ -34,6 +34,8 @@ impl Simulation {
             instructions: _,
             pointers: _,
             phases: _,
+            // Stop the simulation, but change no bit.
+            limits: _,
             accounting,
             // Follow from the particles.
             materials: _,

@@ -52,6 +52,8 @@ impl Scenario {
         self.write_walls(&mut writer);
         writer.table("time");
         write_time(&mut writer, self.time);
+        writer.table("limits");
+        writer.key("energy_error", quantity(self.limits.energy_error, Dimension::NONE));
         write_output(&mut writer, &self.output, &self.stages);
         self.write_stages(&mut writer);
         writer.finish()

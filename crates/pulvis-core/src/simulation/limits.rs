@@ -1,0 +1,175 @@
+//! What stops a simulation: states that cannot be right.
+//!
+//! Nothing of this costs the contact loop anything. Positions and walls are looked at when a list is made anew, which
+//! is before any particle or wall has moved farther than its skin; energies every 64 steps.
+
+use pulvis_math::Vector3;
+
+use super::Simulation;
+use super::errors::{Alarm, StepError};
+use crate::contacts::Deep;
+use crate::ledger::Ledger;
+
+/// Limits of what a simulation may do before [`Simulation::advance`] stops with an [`Alarm`]. NaN and infinity always
+/// stop it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Closing error of the energy ledger over the largest energy in motion [1].
+    pub energy_error: f64,
+    /// Overlap of two particles over the smaller radius, and of a particle and a wall over its radius [1]. One is where
+    /// the centre of the smaller particle enters the larger one, or passes the wall: what comes then is no contact.
+    pub overlap: f64,
+    /// Way of any particle and any wall in a time step, over the smallest radius [1]. Longer ones step over contacts.
+    pub displacement: f64,
+    /// Whether two walls that face each other may pass each other.
+    pub walls_may_cross: bool,
+}
+
+impl Limits {
+    /// No limits: only NaN and infinity stop the simulation. How a simulation starts.
+    pub const NONE: Self = Self {
+        energy_error: f64::INFINITY,
+        overlap: f64::INFINITY,
+        displacement: f64::INFINITY,
+        walls_may_cross: true,
+    };
+}
+
+impl Default for Limits {
+    /// What any sound simulation keeps. At the automatic time step, a fiftieth of the shortest contact, an impact with a
+    /// displacement of 0.25 radii a step would go four radii deep (π/50 of the overlap is the way of a step).
+    fn default() -> Self {
+        Self { energy_error: 1e-2, overlap: 1.0, displacement: 0.25, walls_may_cross: false }
+    }
+}
+
+impl Simulation {
+    /// Sets what stops the simulation; by default [`Limits::NONE`].
+    pub fn set_limits(&mut self, limits: Limits) {
+        self.limits = limits;
+    }
+
+    /// Checks the present state against NaN, infinity and the limits. [`advance`](Self::advance) does so every so many
+    /// steps; whoever reports a state can do so then.
+    ///
+    /// # Errors
+    /// As of `advance`.
+    pub fn check_state(&self) -> Result<(), StepError> {
+        self.check_movement()?;
+        self.check_energy(&self.ledger())
+    }
+
+    fn alarm(&self, alarm: Alarm) -> StepError {
+        StepError { step: self.step, time: self.time, alarm }
+    }
+
+    /// Whether particles and walls are where and as fast as they can be.
+    pub(super) fn check_movement(&self) -> Result<(), StepError> {
+        self.check_finite()?;
+        let smallest = self.particles.radius.iter().copied().fold(f64::INFINITY, f64::min);
+        let (longest, most) = (self.limits.displacement * smallest, self.limits.displacement);
+        let fits = |way: f64| way <= longest;
+        for (row, velocity) in self.particles.velocity.iter().enumerate() {
+            let way = velocity.vector.norm() * self.time_step;
+            if !fits(way) {
+                let (id, radii) = (self.particles.id[row], way / smallest);
+                return Err(self.alarm(Alarm::ParticleTooFast { id, radii, most }));
+            }
+        }
+        for (wall, state) in self.walls.iter().zip(&self.wall_states).filter(|(wall, _)| wall.present) {
+            let way = state.displacement.norm();
+            if !fits(way) {
+                let (wall, radii) = (wall.name.clone(), way / smallest);
+                return Err(self.alarm(Alarm::WallTooFast { wall, radii, most }));
+            }
+        }
+        if self.limits.walls_may_cross { Ok(()) } else { self.check_crossing() }
+    }
+
+    /// Whether all positions and velocities are numbers whose squares are numbers.
+    fn check_finite(&self) -> Result<(), StepError> {
+        let particles = &self.particles;
+        // Kinetic energy needs the square of a velocity.
+        let has_square: fn(Vector3) -> bool = |velocity| velocity.norm_squared().is_finite();
+        for (quantity, column, is_sound) in [
+            ("position", &particles.position, Vector3::is_finite as fn(Vector3) -> bool),
+            ("velocity", &particles.velocity, has_square),
+            ("angular velocity", &particles.angular_velocity, has_square),
+        ] {
+            if let Some(row) = column.iter().position(|packed| !is_sound(packed.vector)) {
+                return Err(self.alarm(Alarm::ParticleLost { id: particles.id[row], quantity }));
+            }
+        }
+        for (wall, state) in self.walls.iter().zip(&self.wall_states) {
+            let sound = [("position", wall.point.is_finite()), ("velocity", has_square(state.velocity))];
+            if let Some((quantity, _)) = sound.into_iter().find(|(_, is_sound)| !is_sound) {
+                return Err(self.alarm(Alarm::WallLost { wall: wall.name.clone(), quantity }));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_crossing(&self) -> Result<(), StepError> {
+        let present = || self.walls.iter().filter(|wall| wall.present);
+        for (number, wall) in present().enumerate() {
+            for opposite in present().skip(number + 1) {
+                if let Some(distance) = wall.distance_to_facing(opposite)
+                    && distance < 0.0
+                {
+                    let depth = -distance;
+                    let (wall, opposite) = (wall.name.clone(), opposite.name.clone());
+                    return Err(self.alarm(Alarm::WallsCrossed { wall, opposite, depth }));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether no contact is deeper than contacts can be, by the list that has just been made.
+    pub(super) fn check_overlaps(&self) -> Result<(), StepError> {
+        let most = self.limits.overlap;
+        if most == f64::INFINITY {
+            return Ok(());
+        }
+        let smallest = self.particles.radius.iter().copied().fold(f64::INFINITY, f64::min);
+        let (radius, id) = (&self.particles.radius, &self.particles.id);
+        let walls = self.wall_states.iter().zip(&self.walls);
+        let walls: Vec<_> = walls.map(|(state, wall)| state.now_at_rest(wall)).collect();
+        let deepest =
+            self.contacts.deeper_than(most * smallest, &self.particles, self.domain.images(), &walls);
+        for Deep { rows: [first, second], wall, overlap } in deepest {
+            let least = if wall.is_some() { radius[first] } else { radius[first].min(radius[second]) };
+            let overlap = overlap / least;
+            if overlap <= most {
+                continue;
+            }
+            return Err(self.alarm(match wall {
+                Some(wall) => {
+                    Alarm::BehindWall { id: id[first], wall: self.walls[wall].name.clone(), overlap, most }
+                }
+                None => Alarm::Overlap { id: id[first], other: id[second], overlap, most },
+            }));
+        }
+        Ok(())
+    }
+
+    /// Whether the energies are numbers and balance.
+    pub(super) fn check_energy(&self, ledger: &Ledger) -> Result<(), StepError> {
+        let accounts = ledger.accounts();
+        // Contacts keep no accounts without a ledger.
+        let kept =
+            |name: &str| self.accounting || ["kinetic_translation", "kinetic_rotation"].contains(&name);
+        if let Some((account, _)) = accounts.iter().find(|(name, value)| kept(name) && !value.is_finite()) {
+            // A particle or a wall says more than an account.
+            self.check_finite()?;
+            return Err(self.alarm(Alarm::EnergyNotFinite { account }));
+        }
+        let (error, most) = (ledger.relative_error().abs(), self.limits.energy_error);
+        // Not `>`: NaN is no small error.
+        let closes = error <= most;
+        if self.accounting && !closes {
+            return Err(self.alarm(Alarm::EnergyError { error, most }));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,164 @@
+//! What cannot be right stops a simulation, and says what and where.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::*;
+use pulvis_core::walls::{FaceArea, PressureRamp, Servo, Velocity, Wall, WallMotion};
+use pulvis_core::{Alarm, Limits, Setup, Simulation, StepError};
+use pulvis_math::Vector3;
+
+/// Advances until an alarm; there must be one within so many steps.
+fn alarm_within(steps: u64, setup: Setup, limits: Limits) -> StepError {
+    let mut simulation = start(setup, 50.0);
+    simulation.set_limits(limits);
+    simulation.advance(steps).expect_err("no alarm")
+}
+
+fn one_falling(speed: f64) -> Setup {
+    let falling = sphere(vector(0.0, 0.0, 1.5 * RADIUS), vector(0.0, 0.0, -speed), RADIUS);
+    Setup { walls: vec![floor()], ..setup(vec![falling], elastic()) }
+}
+
+/// Two spheres that meet head on, each with this speed.
+fn two_meeting(speed: f64) -> Setup {
+    let moving =
+        |side: f64| sphere(vector(1.2 * side * RADIUS, 0.0, 0.0), vector(-side * speed, 0.0, 0.0), RADIUS);
+    setup(vec![moving(-1.0), moving(1.0)], elastic())
+}
+
+/// A lid at twice the radius above the floor, moved so.
+fn lid(motion: WallMotion) -> Wall {
+    let lid = Wall::fixed("lid", 0, vector(0.0, 0.0, 2.2 * RADIUS), vector(0.0, 0.0, -1.0));
+    Wall { motion, area: FaceArea::Given(1e-6), ..lid }
+}
+
+#[test]
+fn a_wall_that_is_too_light_for_the_time_step_stops_the_simulation() {
+    // Its own period on the contact is some hundred times shorter than the step.
+    let pressure = PressureRamp { from: 1e3, to: 1e3, duration: 0.0 };
+    let light = Servo { pressure, mass: 1e-12, damping: 0.0 };
+    let mut setup = one_falling(0.0);
+    setup.walls.push(lid(WallMotion::Servo(light)));
+    let StepError { alarm, .. } = alarm_within(100_000, setup, Limits::default());
+    assert!(matches!(alarm, Alarm::WallTooFast { .. } | Alarm::EnergyError { .. }), "{alarm}");
+}
+
+#[test]
+fn a_wall_whose_damping_is_too_strong_for_the_time_step_stops_the_simulation() {
+    let pressure = PressureRamp { from: 1e3, to: 1e3, duration: 0.0 };
+    let damped = Servo { pressure, mass: 1e-6, damping: 1e6 };
+    let mut setup = one_falling(0.0);
+    setup.walls.push(lid(WallMotion::Servo(damped)));
+    let StepError { alarm, .. } = alarm_within(10_000, setup, Limits::NONE);
+    assert!(matches!(&alarm, Alarm::WallLost { wall, .. } if wall == "lid"), "{alarm}");
+}
+
+#[test]
+fn a_speed_whose_square_is_infinite_stops_the_simulation_in_its_first_step() {
+    let StepError { step, alarm, .. } = alarm_within(10, one_falling(1e200), Limits::NONE);
+    assert_eq!((step, alarm), (1, Alarm::ParticleLost { id: 0, quantity: "velocity" }));
+}
+
+#[test]
+fn an_angular_velocity_that_is_not_a_number_stops_the_simulation_though_nothing_feels_it() {
+    let mut setup = two_meeting(0.0);
+    setup.particles[1].angular_velocity = vector(0.0, 1.0, 0.0);
+    // More drag than a step can follow.
+    setup.background.rotational_drag = 1e308;
+    let StepError { step, alarm, .. } = alarm_within(200, setup, Limits::NONE);
+    assert_eq!((step, alarm), (64, Alarm::ParticleLost { id: 1, quantity: "angular velocity" }));
+}
+
+#[test]
+fn a_particle_that_goes_through_the_floor_stops_the_simulation() {
+    // At 40 m/s the contact would be three radii deep; a step is 0.18 radii.
+    let limits = Limits { energy_error: f64::INFINITY, ..Limits::default() };
+    let StepError { alarm, .. } = alarm_within(500, one_falling(40.0), limits);
+    let Alarm::BehindWall { id: 0, wall, overlap, most } = &alarm else { panic!("{alarm}") };
+    assert!(wall == "floor" && *most == 1.0 && (1.0..1.5).contains(overlap), "{alarm}");
+}
+
+#[test]
+fn two_particles_pressed_into_each_other_stop_the_simulation() {
+    let limits = Limits { energy_error: f64::INFINITY, ..Limits::default() };
+    let StepError { alarm, .. } = alarm_within(500, two_meeting(20.0), limits);
+    let Alarm::Overlap { id: 0, other: 1, overlap, most } = alarm else { panic!("{alarm}") };
+    assert!(most == 1.0 && (1.0..1.5).contains(&overlap), "{alarm}");
+}
+
+#[test]
+fn contacts_that_stay_within_the_limits_do_not_stop_the_simulation() {
+    // Half a radius deep.
+    for setup in [one_falling(6.0), two_meeting(4.5)] {
+        let mut simulation = start(setup, 50.0);
+        simulation.set_limits(Limits::default());
+        let mut deepest = 0.0;
+        for _ in 0..300 {
+            simulation.step().unwrap();
+            simulation.for_each_contact(&mut |contact| deepest = contact.overlap.max(deepest));
+        }
+        assert!((0.3 * RADIUS..0.6 * RADIUS).contains(&deepest), "{deepest}");
+    }
+}
+
+#[test]
+fn a_particle_or_a_wall_that_is_too_fast_for_the_time_step_stops_the_simulation() {
+    let StepError { step, alarm, .. } = alarm_within(10, one_falling(1000.0), Limits::default());
+    assert!(matches!(alarm, Alarm::ParticleTooFast { id: 0, .. }) && step == 1, "{alarm}");
+    let mut setup = one_falling(0.0);
+    let velocity = vector(0.0, 0.0, -1000.0);
+    setup.walls.push(lid(WallMotion::Velocity(Velocity { velocity })));
+    let StepError { step, alarm, .. } = alarm_within(10, setup, Limits::default());
+    assert!(matches!(&alarm, Alarm::WallTooFast { wall, .. } if wall == "lid") && step == 1, "{alarm}");
+}
+
+#[test]
+fn a_piston_that_passes_the_floor_stops_the_simulation() {
+    let velocity = vector(0.0, 0.0, -1.0);
+    let mut setup = one_falling(0.0);
+    // Aside: the walls meet without anything between them.
+    let contact = contact_time(&setup);
+    setup.particles.clear();
+    setup.walls.push(lid(WallMotion::Velocity(Velocity { velocity })));
+    let mut simulation = Simulation::new(Setup { time_step: contact / 50.0, ..setup }).unwrap();
+    simulation.set_limits(Limits::default());
+    let StepError { time, alarm, .. } = simulation.advance(10_000).expect_err("no alarm");
+    assert!(
+        matches!(&alarm, Alarm::WallsCrossed { wall, opposite, .. } if wall == "floor" && opposite == "lid")
+    );
+    // 2.2 radii at 1 m/s.
+    assert!((time - 2.2 * RADIUS).abs() < 2.0 * simulation.time_step(), "{time}");
+}
+
+#[test]
+fn a_ledger_that_does_not_close_stops_the_simulation() {
+    let limits = Limits { energy_error: 1e-5, ..Limits::NONE };
+    let mut gas = start(elastic_gas(100), 10.0);
+    gas.set_limits(limits);
+    let StepError { step, alarm, .. } = gas.advance(20_000).expect_err("no alarm");
+    let Alarm::EnergyError { error, most } = alarm else { panic!("{alarm}") };
+    assert!(error > 1e-5 && error.is_finite() && most == 1e-5 && step % 64 == 0, "{step}: {error}");
+    assert_eq!(error, gas.ledger().relative_error().abs(), "the ledger is that of the alarm");
+}
+
+#[test]
+fn looking_at_the_ledger_changes_nothing_and_so_does_the_number_of_steps_at_a_time() {
+    let [mut watched, mut unwatched] =
+        [(); 2].map(|()| start(implosion(60, 12.0 * RADIUS, 3, viscous_luding()), 50.0));
+    for _ in 0..1000 {
+        watched.step().unwrap();
+        assert!(watched.ledger().scale > 0.0);
+    }
+    unwatched.advance(1000).unwrap();
+    assert_eq!(watched.ledger(), unwatched.ledger());
+}
+
+#[test]
+fn a_system_without_contacts_has_no_alarm() {
+    let mut alone =
+        start(setup(vec![sphere(Vector3::zero(), vector(0.1, 0.0, 0.0), RADIUS)], elastic()), 50.0);
+    alone.set_limits(Limits::default());
+    alone.advance(1000).unwrap();
+    assert_eq!(alone.ledger().relative_error(), 0.0);
+}
