@@ -9,7 +9,7 @@ use crate::process::{cargo, root, run, scratch, target, works};
 /// All tests.
 pub fn run_all() -> Outcome {
     if works(&mut cargo(&["nextest", "--version"])) {
-        run(&mut cargo(&["nextest", "run", "--workspace"]))?;
+        run(&mut cargo(&["nextest", "run", "--workspace", "--no-fail-fast"]))?;
         run(&mut cargo(&["test", "--workspace", "--doc", "--quiet"]))?;
     } else {
         println!("skipped: cargo-nextest is not installed; `cargo test` runs the same tests");

@@ -4,8 +4,9 @@
 mod common;
 
 use common::*;
+use pulvis_contact::{ContactModel, ExpectedLoading, Hertz};
 use pulvis_core::walls::{FaceArea, PressureRamp, Servo, Velocity, Wall, WallMotion};
-use pulvis_core::{Alarm, Limits, Setup, Simulation, StepError};
+use pulvis_core::{Alarm, Limits, Particle, Setup, Simulation, StepError};
 use pulvis_math::Vector3;
 
 /// Advances until an alarm; there must be one within so many steps.
@@ -15,9 +16,12 @@ fn alarm_within(steps: u64, setup: Setup, limits: Limits) -> StepError {
     simulation.advance(steps).expect_err("no alarm")
 }
 
+fn falling(speed: f64) -> Particle {
+    sphere(vector(0.0, 0.0, 1.5 * RADIUS), vector(0.0, 0.0, -speed), RADIUS)
+}
+
 fn one_falling(speed: f64) -> Setup {
-    let falling = sphere(vector(0.0, 0.0, 1.5 * RADIUS), vector(0.0, 0.0, -speed), RADIUS);
-    Setup { walls: vec![floor()], ..setup(vec![falling], elastic()) }
+    Setup { walls: vec![floor()], ..setup(vec![falling(speed)], elastic()) }
 }
 
 /// Two spheres that meet head on, each with this speed.
@@ -140,6 +144,27 @@ fn a_ledger_that_does_not_close_stops_the_simulation() {
     let Alarm::EnergyError { error, most } = alarm else { panic!("{alarm}") };
     assert!(error > 1e-5 && error.is_finite() && most == 1e-5 && step % 64 == 0, "{step}: {error}");
     assert_eq!(error, gas.ledger().relative_error().abs(), "the ledger is that of the alarm");
+}
+
+#[test]
+fn a_contact_stiffer_than_its_time_step_resolves_stops_the_simulation_unless_it_was_expected() {
+    // k grows as √δ, and so do the steps in a contact fall as δ^(-1/4).
+    let hertz = |speed: f64| {
+        let mut model = ContactModel::frictionless(Hertz { effective_modulus: 1e8 });
+        model.laws.expected = ExpectedLoading { speed, force: 0.0, overlap: 0.0 };
+        Setup { walls: vec![floor()], ..setup(vec![falling(0.5)], model) }
+    };
+    let run = |expected: f64| {
+        let mut simulation = start(hertz(expected), 12.0);
+        simulation.set_limits(Limits { steps_per_contact: 10.0, ..Limits::NONE });
+        simulation.advance(2000)
+    };
+    run(0.5).unwrap();
+    // Half the speed: δ over 2^(4/5), and still 12/2^(1/5) = 10.4 steps.
+    run(0.25).unwrap();
+    let StepError { alarm, .. } = run(0.1).expect_err("no alarm");
+    let Alarm::TooStiff { steps, least } = alarm else { panic!("{alarm}") };
+    assert!(least == 10.0 && (12.0 / 5.0_f64.powf(0.2)..10.0).contains(&steps), "{steps}");
 }
 
 #[test]

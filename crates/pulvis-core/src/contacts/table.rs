@@ -183,6 +183,11 @@ impl ContactTable {
         sum
     }
 
+    /// The largest k/m_r of all contacts whose law does not bound its stiffness in the last pass [1/s²].
+    pub(crate) fn highest_rate_squared(&self) -> f64 {
+        self.groups().map(|group| group.rate_squared).fold(0.0, f64::max)
+    }
+
     /// The sum of all contacts' energies, group by group: the same for any number of threads.
     pub(crate) fn energies(&self) -> ContactEnergies {
         let mut sum = ContactEnergies::<F64Array<8>>::default();

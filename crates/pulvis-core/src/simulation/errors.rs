@@ -257,6 +257,16 @@ pub enum Alarm {
         /// The limit [1].
         most: f64,
     },
+    /// A contact is stiffer than the time step resolves.
+    #[error(
+        "a contact has become so stiff that it lasts only {steps:.2} time steps, fewer than {least}; it is loaded more than was expected when the time step was chosen: expect a higher velocity, overlap or pressure, or take a shorter step"
+    )]
+    TooStiff {
+        /// Time steps in its duration [1].
+        steps: f64,
+        /// The limit [1].
+        least: f64,
+    },
     /// An account of the energy ledger is NaN or infinite.
     #[error(
         "the account `{account}` of the energy ledger is not a finite number; the time step is too long for the forces that act"

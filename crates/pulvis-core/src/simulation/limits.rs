@@ -1,7 +1,10 @@
 //! What stops a simulation: states that cannot be right.
 //!
 //! Nothing of this costs the contact loop anything. Positions and walls are looked at when a list is made anew, which
-//! is before any particle or wall has moved farther than its skin; energies every 64 steps.
+//! is before any particle or wall has moved farther than its skin; energies every 64 steps; stiffnesses that no law
+//! bounds, which the loop sums up anyway, every step.
+
+use std::f64::consts::PI;
 
 use pulvis_math::Vector3;
 
@@ -21,6 +24,9 @@ pub struct Limits {
     pub overlap: f64,
     /// Way of any particle and any wall in a time step, over the smallest radius [1]. Longer ones step over contacts.
     pub displacement: f64,
+    /// Time steps in the duration π √(m_r/k) of a contact at its present stiffness, at the least [1]. Only contacts of
+    /// laws without a steepest slope are looked at: what the others can do is known before they move.
+    pub steps_per_contact: f64,
     /// Whether two walls that face each other may pass each other.
     pub walls_may_cross: bool,
 }
@@ -31,15 +37,23 @@ impl Limits {
         energy_error: f64::INFINITY,
         overlap: f64::INFINITY,
         displacement: f64::INFINITY,
+        steps_per_contact: 0.0,
         walls_may_cross: true,
     };
 }
 
 impl Default for Limits {
     /// What any sound simulation keeps. At the automatic time step, a fiftieth of the shortest contact, an impact with a
-    /// displacement of 0.25 radii a step would go four radii deep (π/50 of the overlap is the way of a step).
+    /// displacement of 0.25 radii a step would go four radii deep (π/50 of the overlap is the way of a step). Ten steps in a
+    /// contact are the fewest that a time step may be chosen for (see [`shortest_motion`](crate::shortest_motion)).
     fn default() -> Self {
-        Self { energy_error: 1e-2, overlap: 1.0, displacement: 0.25, walls_may_cross: false }
+        Self {
+            energy_error: 1e-2,
+            overlap: 1.0,
+            displacement: 0.25,
+            steps_per_contact: 10.0,
+            walls_may_cross: false,
+        }
     }
 }
 
@@ -151,6 +165,13 @@ impl Simulation {
             }));
         }
         Ok(())
+    }
+
+    /// Whether the time step resolves the stiffest contact of the last pass, where its law does not bound that.
+    pub(super) fn check_stiffness(&self) -> Result<(), StepError> {
+        let frequency = self.contacts.highest_rate_squared().sqrt();
+        let (steps, least) = (PI / (frequency * self.time_step), self.limits.steps_per_contact);
+        if steps < least { Err(self.alarm(Alarm::TooStiff { steps, least })) } else { Ok(()) }
     }
 
     /// Whether the energies are numbers and balance.

@@ -43,6 +43,7 @@ impl Simulation {
             let background_power = self.forces_and_kick(false, left > 0 && !surveys_energy);
             self.finish_walls();
             self.time += self.time_step;
+            self.check_stiffness()?;
             self.running.take_in(self.contacts.energies(), background_power, self.time_step);
             if surveys_energy {
                 self.survey_energy()?;
