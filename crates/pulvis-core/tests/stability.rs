@@ -14,7 +14,7 @@ use pulvis_math::Vector3;
 fn dies_out(w: f64, h: f64, drag: f64) -> bool {
     let time_step = 1e-6;
     let mass = sphere(Vector3::zero(), Vector3::zero(), RADIUS).mass;
-    let stiffness = mass * (w / time_step).powi(2);
+    let stiffness = mass * (w / time_step) * (w / time_step);
     let mut model = ContactModel::frictionless(Linear::new(stiffness, 0.0));
     model.laws.viscosity = Viscosity::Constant(Constant { gamma_0: h * mass / time_step });
     // At rest it is pressed in by a tenth of its radius, and moves by up to a thousandth of that: it stays in contact.
