@@ -8,10 +8,12 @@ mod background;
 mod cuboid;
 mod domain;
 pub mod motion;
+mod region;
 mod shape;
 
 pub use background::{Background, Drag};
 pub use cuboid::Cuboid;
 pub use domain::{Domain, Images};
 pub use motion::WallMotion;
+pub use region::Region;
 pub use shape::{Cylinder, CylinderSide, Plane, Shape, Surface, WallShape};

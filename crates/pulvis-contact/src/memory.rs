@@ -186,6 +186,11 @@ impl MemoryLayout {
         self.parts.into_iter().flat_map(|part| part.columns).copied()
     }
 
+    /// The names of the laws that the columns belong to, column by column.
+    pub fn laws(&self) -> impl Iterator<Item = &'static str> + use<> {
+        self.parts.into_iter().flat_map(|part| part.columns.iter().map(move |_| part.law))
+    }
+
     /// The number of the column with this name (without its unit).
     pub fn column(&self, name: &str) -> Option<usize> {
         self.names().position(|known| known.split(' ').next() == Some(name))

@@ -9,7 +9,7 @@ use thiserror::Error;
 pub struct NamedColumn {
     /// What the numbers mean, in a word for files: `charge`.
     pub name: String,
-    /// SI unit of the values, for people: `C`; empty for pure numbers.
+    /// SI unit of the values, for people: `C`; `1` for pure numbers.
     pub unit: String,
     /// The numbers.
     pub values: Vec<f64>,

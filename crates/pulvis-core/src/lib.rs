@@ -12,7 +12,6 @@ mod ledger;
 mod neighbours;
 mod particles;
 mod phases;
-mod region;
 mod simulation;
 mod time_step;
 pub mod walls;
@@ -20,13 +19,14 @@ pub mod walls;
 use pulvis_parallel::{shared, thread_pool};
 
 pub use columns::{NameError, NamedColumn};
-pub use contacts::{ContactPartner, ContactRecords, ContactTotals, ContactView, Interactions, MemoryError};
+pub use contacts::{
+    ContactPartner, ContactRecords, ContactTotals, ContactView, Interactions, MemoryColumn, MemoryError,
+};
 pub use ledger::Ledger;
 pub use particles::{MaterialIndex, Particle, ParticleId, Particles, Vectors};
 pub use phases::Phases;
-pub use pulvis_boundary::{Background, Domain};
+pub use pulvis_boundary::{Background, Domain, Region};
 pub use pulvis_math::InstructionSet;
-pub use region::Region;
 pub use simulation::{
     Alarm, Limits, ListState, ParticleState, Setup, SetupError, Simulation, State, StateError, StepError,
     WallRecord,

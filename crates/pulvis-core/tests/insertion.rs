@@ -6,6 +6,7 @@ mod common;
 use std::collections::BTreeMap;
 
 use common::*;
+use pulvis_boundary::Cuboid;
 use pulvis_core::{ContactPartner, Domain, Particle, Region, Setup, SetupError, Simulation};
 use pulvis_math::Vector3;
 
@@ -197,7 +198,7 @@ fn who_stays_moves_as_if_those_out_of_reach_had_never_been_there() {
     near.advance(700).unwrap();
     both.advance(700).unwrap();
     let corner = vector(3.0 * EDGE, -EDGE, -EDGE);
-    let removed = both.remove_within(&Region::Box { lower: corner, upper: vector(1.0, 1.0, 1.0) });
+    let removed = both.remove_within(&Region::Box(Cuboid { lower: corner, upper: vector(1.0, 1.0, 1.0) }));
     assert_eq!(removed, (0..30).collect::<Vec<_>>());
     near.advance(700).unwrap();
     both.advance(700).unwrap();

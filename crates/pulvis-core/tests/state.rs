@@ -263,12 +263,12 @@ fn a_damaged_state_is_refused() {
         other => panic!("{other}"),
     };
     assert!(matches!(
-        memory(refused(|state| state.memory[0].columns[0][1] = f64::INFINITY)),
+        memory(refused(|state| state.memory[0].columns[0].values[1] = f64::INFINITY)),
         MemoryError::Value { .. }
     ));
     assert!(matches!(
         memory(refused(|state| {
-            state.memory[0].columns[0].pop();
+            state.memory[0].columns[0].values.pop();
         })),
         MemoryError::Length { .. }
     ));

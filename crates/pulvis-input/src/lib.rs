@@ -25,6 +25,7 @@
 //! # Ok::<(), pulvis_input::InputErrors>(())
 //! ```
 
+mod any_quantity;
 pub mod collision;
 pub mod contact;
 pub mod context;
@@ -51,6 +52,7 @@ pub mod unit;
 mod value;
 pub mod value_reader;
 
+pub use any_quantity::AnyQuantity;
 pub use contact::{NamedContact, NamedLaw, read_contact, read_contact_model};
 pub use context::{Location, Reported};
 pub use document::Document;

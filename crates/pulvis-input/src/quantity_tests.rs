@@ -72,8 +72,8 @@ fn a_message_says_what_was_found_what_was_expected_and_how_to_write_it() {
         "\"2 mm\" is a length [m], expected a pure number; write for example 2"
     );
     assert_eq!(
-        message("3 W", Dimension::ENERGY),
-        "\"3 W\" is a quantity in [kg^1 m^2 s^-3], expected an energy [J]; write for example \"3 J\""
+        message("3 N s", Dimension::ENERGY),
+        "\"3 N s\" is a quantity in [kg^1 m^1 s^-1], expected an energy [J]; write for example \"3 J\""
     );
     assert_eq!(
         message("3 kn", Dimension::FORCE),

@@ -10,7 +10,7 @@ use thiserror::Error;
 /// be folded into the text of a number before rounding: `1.1 mm` becomes `1.1e-3`, not 1.1 · 0.001.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
-    /// Dimension in kilogram, metre, second.
+    /// Dimension in kilogram, metre, second, ampere, kelvin.
     pub dimension: Dimension,
     /// Power of ten of the factor to SI.
     pub decimal: i32,
@@ -87,8 +87,6 @@ const PREFIXES: &[(&str, i32)] = &[
     ("y", -24),
 ];
 
-const POWER: Dimension = Dimension::new(1, 2, -3);
-
 /// Units that take prefixes, with the power of ten to SI.
 const PREFIXED: &[(&str, Dimension, i32)] = &[
     ("m", Dimension::LENGTH, 0),
@@ -97,9 +95,13 @@ const PREFIXED: &[(&str, Dimension, i32)] = &[
     ("N", Dimension::FORCE, 0),
     ("Pa", Dimension::PRESSURE, 0),
     ("J", Dimension::ENERGY, 0),
-    ("W", POWER, 0),
+    ("W", Dimension::POWER, 0),
     ("Hz", Dimension::RATE, 0),
     ("rad", Dimension::NONE, 0),
+    ("A", Dimension::CURRENT, 0),
+    ("C", Dimension::CHARGE, 0),
+    ("V", Dimension::VOLTAGE, 0),
+    ("K", Dimension::TEMPERATURE, 0),
 ];
 
 /// Units that take none: (symbol, dimension, power of ten, numerator, denominator).
@@ -125,7 +127,7 @@ impl Unit {
     /// [`UnitError`] tells which factor cannot be read.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
         let mut unit = Self::ONE;
-        let mut exponents = [0_i32; 3];
+        let mut exponents = [0_i32; 5];
         for (position, part) in text.split('/').enumerate() {
             let mut factors = part.split([' ', '\t', '*', '·', '⋅']).filter(|factor| !factor.is_empty());
             if position == 0 {
@@ -140,16 +142,18 @@ impl Unit {
             }
             unit.multiply(below, -1, &mut exponents)?;
         }
-        let [mass, length, time] = exponents.map(|exponent| i8::try_from(exponent).ok());
-        match (mass, length, time) {
-            (Some(mass), Some(length), Some(time)) => unit.dimension = Dimension::new(mass, length, time),
-            _ => return Err(UnitError::Exponent { factor: shortened(text, LONGEST_VALUE) }),
+        let mut read = [0; 5];
+        for (exponent, sum) in read.iter_mut().zip(exponents) {
+            *exponent = i8::try_from(sum)
+                .map_err(|_| UnitError::Exponent { factor: shortened(text, LONGEST_VALUE) })?;
         }
+        let [mass, length, time, current, temperature] = read;
+        unit.dimension = Dimension { mass, length, time, current, temperature };
         Ok(unit)
     }
 
     /// Multiplies by one factor such as `cm3`, or divides by it where `sign` is -1.
-    fn multiply(&mut self, factor: &str, sign: i32, exponents: &mut [i32; 3]) -> Result<(), UnitError> {
+    fn multiply(&mut self, factor: &str, sign: i32, exponents: &mut [i32; 5]) -> Result<(), UnitError> {
         let (base, exponent) = read_factor(factor)?;
         let exponent = sign * exponent;
         self.decimal += exponent * base.decimal;
@@ -160,8 +164,8 @@ impl Unit {
         };
         self.numerator *= elementary::powi(above, exponent.abs());
         self.denominator *= elementary::powi(below, exponent.abs());
-        let Dimension { mass, length, time } = base.dimension;
-        for (sum, part) in exponents.iter_mut().zip([mass, length, time]) {
+        let Dimension { mass, length, time, current, temperature } = base.dimension;
+        for (sum, part) in exponents.iter_mut().zip([mass, length, time, current, temperature]) {
             *sum += exponent * i32::from(part);
         }
         Ok(())

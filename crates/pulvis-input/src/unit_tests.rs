@@ -37,6 +37,10 @@ fn units_of_mechanics_have_their_dimension_and_power_of_ten() {
         ("us", Dimension::TIME, -6),
         ("%", Dimension::NONE, -2),
         ("kg^2 m^0 s^1", Dimension::new(2, 0, 1), 0),
+        ("pC", Dimension::CHARGE, -12),
+        ("mA s", Dimension::CHARGE, -3),
+        ("kV", Dimension::VOLTAGE, 3),
+        ("K", Dimension::TEMPERATURE, 0),
     ] {
         assert_eq!(decimal_unit(text), (dimension, decimal), "{text}");
     }

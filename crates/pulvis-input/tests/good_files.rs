@@ -245,3 +245,33 @@ fn moduli_of_a_contact_follow_from_its_materials_unless_it_names_them() {
     assert!((shear(1) / (1.0 / (1.0 / glass + 1.0 / steel)) - 1.0).abs() < 1e-15);
     assert_eq!(scenario.stages[0].contacts[0].model.laws.expected.speed, 1.0);
 }
+
+#[test]
+fn columns_of_particles_come_in_one_order_with_their_dimensions() {
+    let scenario = good("removal.toml");
+    let columns = |group: usize| -> Vec<(&str, f64, String)> {
+        let columns = &scenario.particles[group].columns;
+        columns.iter().map(|column| (&column.name[..], column.value, column.dimension.unit())).collect()
+    };
+    let units = ["C", "kg^-1 m^-2 s^3 A^2", "1"].map(str::to_owned);
+    let [charge, conductance, batch] = units;
+    let first = [
+        ("charge", 1e-12, charge.clone()),
+        ("conductance", 2e-3, conductance.clone()),
+        ("batch", 1.0, batch.clone()),
+    ];
+    assert_eq!(columns(0), first);
+    assert_eq!(
+        columns(1),
+        [("charge", -3e-12, charge), ("conductance", 0.0, conductance), ("batch", 2.0, batch)]
+    );
+}
+
+#[test]
+fn stages_take_particles_away_in_a_sphere_or_a_box() {
+    let stages = good("removal.toml").stages;
+    assert_eq!(stages[0].remove, None);
+    assert_eq!(stages[1].remove, Some(Region::Sphere { centre: [0.0; 3].into(), radius: 1.5e-3 }));
+    let (lower, upper) = ([0.0, 0.0, 1e-3].into(), [1e-2; 3].into());
+    assert_eq!(stages[2].remove, Some(Region::Box(Cuboid { lower, upper })));
+}

@@ -1,10 +1,8 @@
-//! Physical dimensions as exponents of kilogram, metre and second.
+//! Physical dimensions as exponents of kilogram, metre, second, ampere and kelvin.
 
 use std::fmt;
 
-/// The dimension of a quantity in SI base units: kg^mass · m^length · s^time.
-///
-/// Mechanics of grains needs no ampere, kelvin or mole; a law that does extends this type.
+/// The dimension of a quantity in SI base units: kg^mass · m^length · s^time · A^current · K^temperature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Dimension {
     /// Exponent of the kilogram.
@@ -13,6 +11,10 @@ pub struct Dimension {
     pub length: i8,
     /// Exponent of the second.
     pub time: i8,
+    /// Exponent of the ampere.
+    pub current: i8,
+    /// Exponent of the kelvin.
+    pub temperature: i8,
 }
 
 impl Dimension {
@@ -44,14 +46,32 @@ impl Dimension {
     pub const ENERGY: Self = Self::new(1, 2, -2);
     /// Pressure, stress or modulus [Pa].
     pub const PRESSURE: Self = Self::new(1, -1, -2);
+    /// Power [W].
+    pub const POWER: Self = Self::new(1, 2, -3);
+    /// Electric current [A].
+    pub const CURRENT: Self = Self { current: 1, ..Self::NONE };
+    /// Electric charge [C].
+    pub const CHARGE: Self = Self { current: 1, ..Self::TIME };
+    /// Voltage [V].
+    pub const VOLTAGE: Self = Self { current: -1, ..Self::POWER };
+    /// Temperature [K].
+    pub const TEMPERATURE: Self = Self { temperature: 1, ..Self::NONE };
 
-    /// The dimension with the given exponents.
+    /// The dimension of mechanics with the given exponents.
     pub const fn new(mass: i8, length: i8, time: i8) -> Self {
-        Self { mass, length, time }
+        Self { mass, length, time, current: 0, temperature: 0 }
     }
 
     /// The name of the SI unit and of the quantity, where the dimension has a usual one.
     const fn usual(self) -> Option<(&'static str, &'static str)> {
+        match (self.current, self.temperature) {
+            (0, 0) => {}
+            (1, 0) if self.is_like(Self::CURRENT) => return Some(("A", "electric current")),
+            (1, 0) if self.is_like(Self::CHARGE) => return Some(("C", "electric charge")),
+            (-1, 0) if self.is_like(Self::VOLTAGE) => return Some(("V", "voltage")),
+            (0, 1) if self.is_like(Self::TEMPERATURE) => return Some(("K", "temperature")),
+            _ => return None,
+        }
         Some(match (self.mass, self.length, self.time) {
             (0, 0, 0) => ("1", "pure number"),
             (0, 1, 0) => ("m", "length"),
@@ -67,8 +87,14 @@ impl Dimension {
             (1, 2, -1) => ("kg m^2/s", "rotational dashpot coefficient"),
             (1, 2, -2) => ("J", "energy"),
             (1, -1, -2) => ("Pa", "pressure"),
+            (1, 2, -3) => ("W", "power"),
             _ => return None,
         })
+    }
+
+    /// Whether the exponents of mechanics are the same.
+    const fn is_like(self, other: Self) -> bool {
+        self.mass == other.mass && self.length == other.length && self.time == other.time
     }
 
     /// The SI unit as text, for example `N/m`.
@@ -91,14 +117,26 @@ impl Dimension {
 impl std::ops::Mul for Dimension {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Self::new(self.mass + other.mass, self.length + other.length, self.time + other.time)
+        Self {
+            mass: self.mass + other.mass,
+            length: self.length + other.length,
+            time: self.time + other.time,
+            current: self.current + other.current,
+            temperature: self.temperature + other.temperature,
+        }
     }
 }
 
-/// Prints the exponents, for example `kg^1 m^0 s^-2`.
+/// Prints the exponents, for example `kg^1 m^0 s^-2`; those of ampere and kelvin where they are not zero.
 impl fmt::Display for Dimension {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "kg^{} m^{} s^{}", self.mass, self.length, self.time)
+        write!(out, "kg^{} m^{} s^{}", self.mass, self.length, self.time)?;
+        for (unit, exponent) in [("A", self.current), ("K", self.temperature)] {
+            if exponent != 0 {
+                write!(out, " {unit}^{exponent}")?;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -116,5 +154,10 @@ mod tests {
     #[test]
     fn an_unusual_dimension_is_spelled_out() {
         assert_eq!(Dimension::new(2, 0, 1).unit(), "kg^2 m^0 s^1");
+        let heat_capacity = Dimension { temperature: -1, ..Dimension::ENERGY };
+        assert_eq!(heat_capacity.unit(), "kg^1 m^2 s^-2 K^-1");
+        assert_eq!((heat_capacity * Dimension::TEMPERATURE).unit(), "J");
+        assert_eq!((Dimension::CHARGE * Dimension::VOLTAGE).unit(), "J");
+        assert_eq!((Dimension::CURRENT * Dimension::TIME).unit(), "C");
     }
 }

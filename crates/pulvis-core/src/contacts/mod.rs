@@ -19,7 +19,7 @@ pub(crate) use force_pass::Sweep;
 pub use interactions::Interactions;
 pub(crate) use kernel::{Advance, KinematicColumns};
 pub(crate) use rebuild::MemoryStore;
-pub use records::{ContactRecords, MemoryError};
+pub use records::{ContactRecords, MemoryColumn, MemoryError};
 pub(crate) use table::{ContactTable, Surroundings};
 pub use totals::ContactTotals;
 pub use view::{ContactPartner, ContactView};

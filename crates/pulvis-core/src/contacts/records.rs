@@ -10,12 +10,10 @@ use super::block::{ContactGroup, Partner};
 use crate::particles::ParticleId;
 use crate::walls::WallFeature;
 
-/// What contacts of one normal law with the same columns of memory remember, one entry a contact. The sign of what
-/// they remember is that for the first body.
+/// What contacts with the same columns of memory remember, one entry a contact. The sign of what they remember is
+/// that for the first body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactRecords {
-    /// Name of the normal law.
-    pub law: String,
     /// Whether the second bodies are walls.
     pub with_walls: bool,
     /// Ids of the first bodies.
@@ -23,7 +21,18 @@ pub struct ContactRecords {
     /// Ids of the second bodies; of a wall the number of its feature, which is the wall's index where it has only one.
     pub second: Vec<u32>,
     /// Columns of memory.
-    pub columns: Vec<Vec<f64>>,
+    pub columns: Vec<MemoryColumn>,
+}
+
+/// A column of contact memory.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MemoryColumn {
+    /// Name of the law that remembers it.
+    pub law: String,
+    /// Its name with its unit: `overlap_max [m]`.
+    pub name: String,
+    /// What each contact remembers.
+    pub values: Vec<f64>,
 }
 
 /// Why contacts cannot remember what they are given.
@@ -32,11 +41,11 @@ pub struct ContactRecords {
 pub enum MemoryError {
     /// A column is too short or too long.
     #[error(
-        "a column of the memory of `{law}` contacts has {found} entries, expected {expected}; the state is damaged"
+        "the column `{name}` of contact memory has {found} entries, expected {expected}; the state is damaged"
     )]
     Length {
-        /// Name of the normal law.
-        law: String,
+        /// Name of the column.
+        name: String,
         /// How many entries it has.
         found: usize,
         /// How many it must have.
@@ -92,33 +101,35 @@ type Key = (bool, u32, u32);
 impl ContactRecords {
     /// No records yet of contacts like those of a group.
     fn like(group: &ContactGroup) -> Self {
-        let (law, columns) = (law_of(group).to_owned(), vec![Vec::new(); group.layout.columns()]);
-        Self { law, with_walls: group.partner == Partner::Wall, columns, ..Self::default() }
+        let column = |(law, name): (&str, &str)| MemoryColumn {
+            law: law.to_owned(),
+            name: name.to_owned(),
+            values: Vec::new(),
+        };
+        let columns = group.layout.laws().zip(group.layout.names()).map(column).collect();
+        Self { with_walls: group.partner == Partner::Wall, columns, ..Self::default() }
     }
 
     fn is_like(&self, group: &ContactGroup) -> bool {
-        self.law == law_of(group)
-            && self.with_walls == (group.partner == Partner::Wall)
-            && self.columns.len() == group.layout.columns()
+        let own = self.columns.iter().map(|column| (&column.law[..], &column.name[..]));
+        self.with_walls == (group.partner == Partner::Wall)
+            && own.eq(group.layout.laws().zip(group.layout.names()))
     }
 
     fn check(&self) -> Result<(), MemoryError> {
         let expected = self.first.len();
-        let mut lengths = self.columns.iter().map(Vec::len).chain([self.second.len()]);
-        if let Some(found) = lengths.find(|&found| found != expected) {
-            return Err(MemoryError::Length { law: self.law.clone(), found, expected });
+        let columns = self.columns.iter().map(|column| (&column.name[..], column.values.len()));
+        let mut lengths = columns.chain([("second", self.second.len())]);
+        if let Some((name, found)) = lengths.find(|&(_, found)| found != expected) {
+            return Err(MemoryError::Length { name: name.to_owned(), found, expected });
         }
-        for column in &self.columns {
-            if let Some(index) = column.iter().position(|value| !value.is_finite()) {
-                return Err(MemoryError::Value { first: self.first[index], value: column[index] });
+        for MemoryColumn { values, .. } in &self.columns {
+            if let Some(index) = values.iter().position(|value| !value.is_finite()) {
+                return Err(MemoryError::Value { first: self.first[index], value: values[index] });
             }
         }
         Ok(())
     }
-}
-
-fn law_of(group: &ContactGroup) -> &'static str {
-    group.model.normal.entry().name
 }
 
 fn name_of((with_wall, _, second): Key) -> String {
@@ -165,7 +176,7 @@ impl ContactTable {
                     let (_, first, second) = key_of(group, ids, block, lane);
                     table.first.push(first);
                     table.second.push(second);
-                    for (values, column) in table.columns.iter_mut().zip(columns) {
+                    for (MemoryColumn { values, .. }, column) in table.columns.iter_mut().zip(columns) {
                         values.push(column.0[lane]);
                     }
                 }
@@ -216,7 +227,8 @@ impl ContactTable {
                     if !table.is_like(group) {
                         return Err(another_law(key, table, group));
                     }
-                    for (column, values) in group.memory[block * width..].iter_mut().zip(&table.columns) {
+                    let columns = group.memory[block * width..].iter_mut().zip(&table.columns);
+                    for (column, MemoryColumn { values, .. }) in columns {
                         column.0[lane] = values[index];
                     }
                 }
@@ -230,11 +242,15 @@ impl ContactTable {
 }
 
 fn another_law(key: Key, table: &ContactRecords, group: &ContactGroup) -> MemoryError {
-    let described = |law: &str, columns: usize| format!("{columns} numbers of `{law}`");
+    let described = |records: &ContactRecords| {
+        let columns =
+            records.columns.iter().map(|MemoryColumn { law, name, .. }| format!("`{name}` of `{law}`"));
+        columns.collect::<Vec<_>>().join(", ")
+    };
     MemoryError::Law {
         first: key.1,
         second: name_of(key),
-        found: described(&table.law, table.columns.len()),
-        expected: described(law_of(group), group.layout.columns()),
+        found: described(table),
+        expected: described(&ContactRecords::like(group)),
     }
 }

@@ -1,9 +1,10 @@
 //! Particles that come and go between steps.
 
+use pulvis_boundary::Region;
+
 use super::{Simulation, check_count, checks};
 use crate::columns::NamedColumn;
 use crate::particles::{Particle, ParticleId};
-use crate::region::Region;
 use crate::{Particles, SetupError};
 
 /// Insertion and removal. Both renew the neighbour list. Contacts of the particles that stay keep their memory.

@@ -35,6 +35,7 @@
 
 mod arrangement;
 mod axis;
+mod columns;
 mod contacts;
 mod controls;
 mod domain;
@@ -45,6 +46,7 @@ mod particles;
 mod placement;
 mod points;
 mod radius;
+mod removal;
 mod resolved;
 
 mod stages;
@@ -58,6 +60,7 @@ mod walls;
 pub use crate::contact::NamedLaw;
 pub use arrangement::{Arrangement, Grain};
 pub use axis::{Axis, BoxFace, Side};
+pub use columns::ParticleColumn;
 pub use contacts::Contact;
 pub use controls::WallControl;
 pub use limits::Limits;
@@ -66,7 +69,9 @@ pub use output::{Dimensionless, Interval, OutputPlan, Snapshots};
 pub use particles::{ParticleGroup, VelocityPlan};
 pub use points::PointsError;
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};
-pub use pulvis_boundary::{Background, Cuboid, Cylinder, CylinderSide, Domain, Plane, WallMotion, WallShape};
+pub use pulvis_boundary::{
+    Background, Cuboid, Cylinder, CylinderSide, Domain, Plane, Region, WallMotion, WallShape,
+};
 pub use pulvis_packing::{Lattice, RadiusDistribution};
 pub use stages::Stage;
 pub use time::TimeStep;

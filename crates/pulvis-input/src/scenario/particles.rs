@@ -1,6 +1,7 @@
 //! Groups of particles.
 
 use super::arrangement::{Arrangement, MOST_PARTICLES, read_arrangement};
+use super::columns::{ParticleColumn, read_columns};
 use super::materials::{Material, read_material_name};
 use super::radius::read_radius;
 use crate::collision::{Sphere, unfit_for_numbers};
@@ -29,6 +30,8 @@ pub struct ParticleGroup {
     pub arrangement: Arrangement,
     /// How they move at the start.
     pub velocity: VelocityPlan,
+    /// Further quantities; the same names in the same order for all groups.
+    pub columns: Vec<ParticleColumn>,
 }
 
 /// Velocities at the start of a run.
@@ -55,7 +58,16 @@ pub(super) fn read_particles(
     if tables.is_empty() {
         return Err(root.refuse("particles", no_tables(root, "particles")));
     }
-    let groups: Vec<_> = tables.into_iter().map(|table| read_group(table, materials, folder)).collect();
+    let mut groups: Vec<Result<PlacedGroup, Reported>> = Vec::with_capacity(tables.len());
+    for table in tables {
+        // Where the first group is wrong, the others are compared with nothing.
+        let first = match groups.first() {
+            Some(Ok((group, _))) => Some(&group.columns[..]),
+            _ => None,
+        };
+        let group = read_group(table, materials, folder, first);
+        groups.push(group);
+    }
     groups.into_iter().collect()
 }
 
@@ -73,6 +85,7 @@ fn read_group(
     mut table: TableReader<'_>,
     materials: &[Material],
     folder: &Path,
+    first: Option<&[ParticleColumn]>,
 ) -> Result<PlacedGroup, Reported> {
     let material =
         read_material_name(&mut table, "material", materials).and_then(|index| match materials.get(index) {
@@ -92,6 +105,7 @@ fn read_group(
         Some(velocity) => read_velocity(velocity, arrangement.as_ref().ok()),
         None => Ok(VelocityPlan::default()),
     });
+    let columns = read_columns(&mut table, first);
     let count = match (count, &arrangement) {
         (Ok(count), Ok(arrangement)) => fitting_count(&table, arrangement, count),
         (Err(reported), _) | (_, &Err(reported)) => Err(reported),
@@ -116,8 +130,8 @@ fn read_group(
     }
     table.finish();
     let (material, count, radius) = (material?, count?, radius?);
-    let (arrangement, velocity) = (arrangement?, velocity?);
-    Ok((ParticleGroup { material, count, radius, arrangement, velocity }, place))
+    let (arrangement, velocity, columns) = (arrangement?, velocity?, columns?);
+    Ok((ParticleGroup { material, count, radius, arrangement, velocity, columns }, place))
 }
 
 /// The number of particles, which has to fit the arrangement.

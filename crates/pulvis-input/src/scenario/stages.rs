@@ -4,6 +4,7 @@ use super::axis::{Axis, BoxFace, Side};
 use super::contacts::Contact;
 use super::controls::{WallControl, read_control};
 use super::particles::no_tables;
+use super::removal::read_removal;
 use super::switches::{Switch, read_switches};
 use super::time::{TimeStep, read_time};
 use super::until::{StopRules, read_until};
@@ -12,7 +13,7 @@ use crate::context::Reported;
 use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::Text;
-use pulvis_boundary::{Background, WallMotion};
+use pulvis_boundary::{Background, Region, WallMotion};
 
 /// A stage of a run, with everything that holds while it lasts.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +22,8 @@ pub struct Stage {
     pub name: String,
     /// When it ends; at least one rule is given.
     pub until: StopRules,
+    /// The particles whose centres lie here are taken away at its start.
+    pub remove: Option<Region>,
     /// The walls whose control changes at its start, by index; other walls go on as before.
     pub controls: Vec<(usize, WallControl)>,
     /// One contact for every pair of materials that can meet, in the order of [`super::Scenario::contacts`].
@@ -35,6 +38,7 @@ pub struct Stage {
 pub(super) struct PlannedStage {
     pub(super) name: String,
     pub(super) until: StopRules,
+    pub(super) remove: Option<Region>,
     pub(super) controls: Vec<(usize, WallControl)>,
     pub(super) switches: Vec<Switch>,
     pub(super) time: TimeStep,
@@ -82,6 +86,7 @@ fn read_stage(
         Ok(name)
     });
     let until = read_until(&mut table);
+    let remove = read_removal(&mut table);
     let controls = read_controls(&mut table, walls, now);
     let switches = read_switches(&mut table);
     let time = read_time(&mut table, now.time);
@@ -93,7 +98,14 @@ fn read_stage(
         (Err(reported), _) | (_, &Err(reported)) => Err(reported),
     };
     table.finish();
-    Ok(PlannedStage { name: name?, until: until?, controls: controls?, switches: switches?, time: time? })
+    Ok(PlannedStage {
+        name: name?,
+        until: until?,
+        remove: remove?,
+        controls: controls?,
+        switches: switches?,
+        time: time?,
+    })
 }
 
 /// Reads `[stages.walls.NAME]`.

@@ -155,7 +155,7 @@ fn resolve(
     let mut document = document.clone();
     let mut stages: Vec<Stage> = Vec::with_capacity(planned.len());
     for stage in planned {
-        let PlannedStage { name, until, controls, switches, time } = stage;
+        let PlannedStage { name, until, remove, controls, switches, time } = stage;
         let changing = if switches.is_empty() {
             let before = stages.last();
             Changing {
@@ -178,7 +178,7 @@ fn resolve(
             })?
         };
         let Changing { contacts, background } = changing;
-        stages.push(Stage { name, until, controls, contacts, background, time });
+        stages.push(Stage { name, until, remove, controls, contacts, background, time });
     }
     Ok(stages)
 }

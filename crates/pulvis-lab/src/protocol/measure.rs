@@ -31,7 +31,8 @@ impl Measure {
         columns.extend(blank.accounts().iter().map(|(name, _)| (*name).to_owned()));
         let totals = ["kinetic", "elastic", "dissipated", "closing_error", "relative_error"];
         columns.extend(totals.map(str::to_owned));
-        let contacts = ["contacts", "wall_contacts", "coordination", "overlap_max", "solid_fraction"];
+        let contacts =
+            ["particles", "contacts", "wall_contacts", "coordination", "overlap_max", "solid_fraction"];
         columns.extend(contacts.map(str::to_owned));
         columns.extend(["stress_xx", "stress_yy", "stress_zz"].map(str::to_owned));
         for axis in AXES {
@@ -90,6 +91,7 @@ impl Measure {
         let contacts = simulation.contact_totals();
         let count = simulation.particles().len() as f64;
         row.extend([
+            count,
             contacts.pairs,
             contacts.at_walls,
             (2.0 * contacts.pairs + contacts.at_walls) / count,

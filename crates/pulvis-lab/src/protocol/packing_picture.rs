@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pulvis_core::{ContactPartner, Simulation};
+use pulvis_core::{ContactPartner, ParticleId, Simulation};
 use pulvis_input::scenario::Scenario;
 use pulvis_io::IoError;
 use pulvis_io::picture::{OutlineBox, SphereScene, render_spheres};
@@ -31,11 +31,8 @@ pub(super) fn draw(scenario: &Scenario, simulation: &Simulation, path: &Path) ->
         materials.iter().position(|&known| known == material).map_or(f64::NAN, |number| number as f64)
     };
     let mixture = materials.len() > 1 && names.len() == materials.len();
-    let values: Vec<f64> = if mixture {
-        rows.iter().map(|&row| class(row)).collect()
-    } else {
-        contacts_of_each(simulation, rows.len())
-    };
+    let values: Vec<f64> =
+        if mixture { rows.iter().map(|&row| class(row)).collect() } else { contacts_of_each(simulation) };
     let instant = format!("t = {}", pulvis_io::plot::amount("time [s]", simulation.time()));
     let title =
         scenario.title.as_ref().map_or_else(|| instant.clone(), |title| format!("{title}, {instant}"));
@@ -51,14 +48,22 @@ pub(super) fn draw(scenario: &Scenario, simulation: &Simulation, path: &Path) ->
     render_spheres(path, &scene)
 }
 
-/// Touching contacts of each particle, walls included.
-fn contacts_of_each(simulation: &Simulation, count: usize) -> Vec<f64> {
-    let mut contacts = vec![0.0; count];
+/// Touching contacts of each particle, walls included, in the order of the ids.
+fn contacts_of_each(simulation: &Simulation) -> Vec<f64> {
+    let mut ids = simulation.particles().ids().to_vec();
+    ids.sort_unstable();
+    let mut contacts = vec![0.0; ids.len()];
+    let mut count = |id: ParticleId| {
+        // Ids of removed particles are missing.
+        if let Ok(index) = ids.binary_search(&id) {
+            contacts[index] += 1.0;
+        }
+    };
     simulation.for_each_contact(&mut |contact| {
         if contact.overlap > 0.0 {
-            contacts[contact.first as usize] += 1.0;
+            count(contact.first);
             if let ContactPartner::Particle(id) = contact.second {
-                contacts[id as usize] += 1.0;
+                count(id);
             }
         }
     });

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use pulvis_core::{Domain, MaterialIndex, Particle};
+use pulvis_core::{Domain, MaterialIndex, NamedColumn, Particle};
 use pulvis_input::Problem;
-use pulvis_input::scenario::{Arrangement, Grain, ParticleGroup, Scenario};
+use pulvis_input::scenario::{Arrangement, Grain, ParticleColumn, ParticleGroup, Scenario};
 use pulvis_math::{Vector3, elementary};
 use pulvis_packing::{Random, gaussian_vector, random_positions, random_stream};
 
@@ -30,6 +30,21 @@ pub(super) fn generate(scenario: &Scenario, domain: &Domain) -> Result<Vec<Parti
         }
     }
     Ok(particles)
+}
+
+/// The further quantities of all particles, in the order of their ids.
+pub(super) fn columns(scenario: &Scenario) -> Vec<NamedColumn> {
+    let Some(first) = scenario.particles.first() else { return Vec::new() };
+    let column = |(index, column): (usize, &ParticleColumn)| NamedColumn {
+        name: column.name.clone(),
+        unit: column.dimension.unit(),
+        values: scenario
+            .particles
+            .iter()
+            .flat_map(|group| std::iter::repeat_n(group.columns[index].value, group.count))
+            .collect(),
+    };
+    first.columns.iter().enumerate().map(column).collect()
 }
 
 fn radii(

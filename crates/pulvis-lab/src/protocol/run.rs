@@ -263,6 +263,9 @@ impl<'a> Run<'a> {
     fn switch_to(&mut self, number: usize) -> Result<(), RunError> {
         let plan = &self.plans[number];
         let simulation = &mut self.simulation;
+        if let Some(region) = &self.scenario.stages[number].remove {
+            simulation.remove_within(region);
+        }
         let failed = |source| RunError::Switch { stage: self.scenario.stages[number].name.clone(), source };
         // What the first stage sets is what the simulation was built with.
         if number > 0 {

@@ -12,7 +12,7 @@ use pulvis_input::Problem;
 use super::error::PrepareError;
 use super::feasible::check_feasible;
 use super::memory::refuse_too_many;
-use super::particles::generate;
+use super::particles::{columns, generate};
 use super::refusal::refuse_setup;
 
 /// A simulation before its first step, and what its stages will need.
@@ -62,7 +62,11 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
         background: first.background,
         time_step: first.time_step,
     };
-    let mut simulation = Simulation::new(setup).map_err(|error| refuse_setup(scenario, &error))?;
+    let refused = |error| refuse_setup(scenario, &error);
+    let mut simulation = Simulation::new(setup).map_err(refused)?;
+    for column in columns(scenario) {
+        simulation.set_column(column).map_err(refused)?;
+    }
     simulation.set_limits(Limits { energy_error: scenario.limits.energy_error, ..Limits::default() });
     check_overlaps(scenario, &simulation)?;
     check_feasible(scenario, &particles, &walls, &stages)?;

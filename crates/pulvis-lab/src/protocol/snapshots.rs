@@ -41,9 +41,14 @@ impl Snapshots {
         let [velocities, angular_velocities] =
             [vectors(particles.velocities()), vectors(particles.angular_velocities())];
         let [forces, torques] = [vectors(particles.forces()), vectors(particles.torques())];
-        let coordination = contacts.coordination(ids.len());
+        let coordination = contacts.coordination(&ids);
+        let further: Vec<Vec<f64>> = particles
+            .columns()
+            .iter()
+            .map(|column| rows.iter().map(|&row| column.values[row]).collect())
+            .collect();
         let positions = vectors(particles.positions());
-        let columns = [
+        let mut columns = vec![
             Column::integer("id", &ids),
             Column::integer("type", &materials),
             Column::scalar("radius", &radii),
@@ -53,6 +58,9 @@ impl Snapshots {
             Column::vector("torque", &torques),
             Column::integer("coordination", &coordination),
         ];
+        for (column, values) in particles.columns().iter().zip(&further) {
+            columns.push(Column::scalar(&column.name, values));
+        }
         let particle_frame = ParticleFrame { positions: &positions, columns: &columns };
         let mut contact_columns = vec![
             Column::integer("id1", &contacts.first),
@@ -120,14 +128,18 @@ impl Contacts {
         }
     }
 
-    /// Touching contacts of each particle, walls included.
-    fn coordination(&self, particles: usize) -> Vec<i64> {
-        let mut counts = vec![0; particles];
-        for contact in (0..self.first.len()).filter(|&contact| self.overlap[contact] > 0.0) {
-            counts[self.first[contact] as usize] += 1;
-            if self.second[contact] >= 0 {
-                counts[self.second[contact] as usize] += 1;
+    /// Touching contacts of each particle, walls included; `ids` in ascending order.
+    fn coordination(&self, ids: &[i64]) -> Vec<i64> {
+        let mut counts = vec![0; ids.len()];
+        let mut count = |id: i64| {
+            // Ids of removed particles are missing; a wall has a negative one.
+            if let Ok(index) = ids.binary_search(&id) {
+                counts[index] += 1;
             }
+        };
+        for contact in (0..self.first.len()).filter(|&contact| self.overlap[contact] > 0.0) {
+            count(self.first[contact]);
+            count(self.second[contact]);
         }
         counts
     }

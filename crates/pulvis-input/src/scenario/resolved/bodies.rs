@@ -22,6 +22,12 @@ impl Scenario {
             write_arrangement(writer, &group.arrangement);
             writer.table("particles.velocity");
             write_velocity(writer, &group.velocity, group);
+            if !group.columns.is_empty() {
+                writer.table("particles.columns");
+            }
+            for column in &group.columns {
+                writer.key(&column.name, quantity(column.value, column.dimension));
+            }
         }
     }
 
@@ -73,7 +79,7 @@ impl Scenario {
     }
 }
 
-fn write_extent(writer: &mut Writer, extent: &Cuboid) {
+pub(super) fn write_extent(writer: &mut Writer, extent: &Cuboid) {
     writer.key("lower", vector(extent.lower, Dimension::LENGTH));
     writer.key("upper", vector(extent.upper, Dimension::LENGTH));
 }

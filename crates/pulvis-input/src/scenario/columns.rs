@@ -1,0 +1,73 @@
+//! Further quantities of particles: charge, temperature and whatever else.
+
+use crate::any_quantity::AnyQuantity;
+use crate::context::Reported;
+use crate::problem::Problem;
+use crate::reader::TableReader;
+use pulvis_math::Dimension;
+
+/// A quantity that all particles of a group have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParticleColumn {
+    /// Its name: letters, digits and underscores.
+    pub name: String,
+    /// Its value, in SI.
+    pub value: f64,
+    /// Its dimension.
+    pub dimension: Dimension,
+}
+
+/// Names that particles in output files have already.
+const TAKEN: [&str; 8] = ["id", "type", "radius", "v", "omega", "f", "torque", "coordination"];
+
+/// Reads `[particles.columns]`, in the order of the file. All groups have the same quantities: those of the `first`
+/// one, unless this is it.
+pub(super) fn read_columns(
+    group: &mut TableReader<'_>,
+    first: Option<&[ParticleColumn]>,
+) -> Result<Vec<ParticleColumn>, Reported> {
+    let mut columns = Vec::new();
+    if let Some(mut table) = group.optional_table("columns")? {
+        let names = table.keys();
+        let read: Vec<_> = names.into_iter().map(|name| read_column(&mut table, name)).collect();
+        table.finish();
+        columns = read.into_iter().collect::<Result<_, _>>()?;
+    }
+    let Some(first) = first else { return Ok(columns) };
+    for column in first {
+        match columns.iter().find(|own| own.name == column.name) {
+            None => {
+                let found = format!("there is no `{}`, which the first group has", column.name);
+                return Err(group.refuse("columns", Problem::rule(found, "the same columns for all groups")));
+            }
+            Some(own) if own.dimension != column.dimension => {
+                let [found, expected] = [own, column].map(|column| column.dimension.unit());
+                let found = format!("`{}` is in {found}, but in {expected} in the first group", column.name);
+                return Err(
+                    group.refuse("columns", Problem::rule(found, "the same dimension for all groups"))
+                );
+            }
+            Some(_) => {}
+        }
+    }
+    if let Some(own) = columns.iter().find(|own| first.iter().all(|column| column.name != own.name)) {
+        let found = format!("the first group has no `{}`", own.name);
+        return Err(group.refuse("columns", Problem::rule(found, "the same columns for all groups")));
+    }
+    // In the order of the first group.
+    columns.sort_by_key(|own| first.iter().position(|column| column.name == own.name));
+    Ok(columns)
+}
+
+fn read_column(table: &mut TableReader<'_>, name: &str) -> Result<ParticleColumn, Reported> {
+    let (value, dimension) = table.required(name, AnyQuantity)?;
+    if !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') || name.is_empty() {
+        let found = format!("\"{name}\" is no name of a column");
+        return Err(table.refuse(name, Problem::rule(found, "only letters, digits and underscores")));
+    }
+    if TAKEN.contains(&name) {
+        let found = format!("output files have a column `{name}` already");
+        return Err(table.refuse(name, Problem::rule(found, "another name")));
+    }
+    Ok(ParticleColumn { name: name.to_owned(), value, dimension })
+}
