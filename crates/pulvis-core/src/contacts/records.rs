@@ -111,9 +111,10 @@ impl ContactRecords {
     }
 
     fn is_like(&self, group: &ContactGroup) -> bool {
-        let own = self.columns.iter().map(|column| (&column.law[..], &column.name[..]));
+        let mut columns = self.columns.iter().zip(group.layout.laws().zip(group.layout.names()));
         self.with_walls == (group.partner == Partner::Wall)
-            && own.eq(group.layout.laws().zip(group.layout.names()))
+            && self.columns.len() == group.layout.columns()
+            && columns.all(|(column, (law, name))| column.law == law && column.name == name)
     }
 
     fn check(&self) -> Result<(), MemoryError> {
