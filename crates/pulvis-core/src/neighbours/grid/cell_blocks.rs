@@ -19,8 +19,8 @@ impl CellBlocks {
     /// Blocks for this many cells along each axis; their product must be below 2³².
     pub(super) fn new(cells: [u32; 3]) -> Self {
         let bits = cells.map(block_bits);
-        let brick = 1_u32 << bits.iter().sum::<u32>();
-        let mut stride = brick;
+        let block = 1_u32 << bits.iter().sum::<u32>();
+        let mut stride = block;
         let mut terms: [Vec<u32>; 3] = Default::default();
         for axis in 0..3 {
             let mask = (1 << bits[axis]) - 1;
