@@ -1,10 +1,11 @@
-//! Sorting by small whole numbers.
+//! Counting sort: sorts by small whole numbers in linear time.
 
-/// Sorts indices by their keys, which are below `count`: `order` tells which index comes where, those of equal keys in
-/// ascending order, and `starts` where each key begins, and the end.
+/// Sorts the indices of `keys` by key, in a stable way. All keys are below `count`. Afterwards `order` holds the sorted
+/// indices, and those with key k are `order[starts[k]..starts[k + 1]]`.
 pub(crate) fn counting_sort(keys: &[u32], count: usize, starts: &mut Vec<u32>, order: &mut Vec<u32>) {
-    // Counts are kept two indices later, so that the next free indices, which end up as the indices where
-    // the next keys begin, can be kept one index later: no second array is needed.
+    // 1. Count key k in starts[k + 2], so that the sums of step 2 put the start of key k into starts[k + 1].
+    // 2. In step 3, starts[k + 1] is the next free slot of key k. When all its indices are placed, it has become the
+    //    start of key k + 1, which is what the caller wants. So no second array is needed.
     starts.clear();
     starts.resize(count + 2, 0);
     for &key in keys {

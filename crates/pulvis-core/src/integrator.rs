@@ -46,11 +46,11 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// The ends of a step for some rows: the second half kick of one step if `FINISH`, the first half kick and
-/// the drift of the next one if `BEGIN`; both in one go while the rows are at hand.
+/// The second half kick of a step if `FINISH`, and the first half kick and the drift of the next step if `BEGIN`, for some
+/// rows. Both together read each row once.
 ///
-/// Predicted velocities are those at the end of the step if forces stay as they are: what dashpots see,
-/// at the same instant as the positions.
+/// Predicted velocities are those at the end of the step if forces stay as they are. Dashpots use them, because they belong
+/// to the same time as the positions.
 pub(crate) struct HalfKicks<'a, const FINISH: bool, const BEGIN: bool> {
     columns: Columns<'a>,
     rows: Range<usize>,
@@ -59,30 +59,29 @@ pub(crate) struct HalfKicks<'a, const FINISH: bool, const BEGIN: bool> {
     step: Step,
 }
 
-/// What steps of all rows have in common.
+/// The parameters of a step.
 #[derive(Clone, Copy)]
 pub(crate) struct Step {
     /// Duration [s].
     pub(crate) time_step: f64,
-    /// Whether anybody looks at predicted angular velocities.
+    /// Whether predicted angular velocities are used.
     pub(crate) predicts_angular_velocities: bool,
 }
 
-/// What comes out of the [`HalfKicks`].
+/// The results of [`HalfKicks`].
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Kicked {
     /// Power that the drag takes [W].
     pub(crate) power: f64,
-    /// The highest speed of the drift [m/s]; infinite where one is no number.
+    /// The maximum speed of the drift [m/s]; infinite if any is NaN.
     pub(crate) fastest: f64,
 }
 
 impl<'a, const FINISH: bool, const BEGIN: bool> HalfKicks<'a, FINISH, BEGIN> {
-    /// For the rows with the `forces_and_torques` on them: those of the contacts, to which the second half kick adds
-    /// the `background`.
+    /// `forces_and_torques` are those of the contacts on these rows; the second half kick adds the `background`.
     ///
     /// # Safety
-    /// Nobody else uses these rows until the kernel has run.
+    /// No other thread uses these rows until the kernel has run.
     pub(crate) unsafe fn new(
         columns: Columns<'a>,
         rows: Range<usize>,
@@ -146,21 +145,25 @@ impl<const FINISH: bool, const BEGIN: bool> Kernel for HalfKicks<'_, FINISH, BEG
             }
             let kick = push.times(R::Simd4::splat(half * inverse_mass));
             let turning = turn.times(R::Simd4::splat(half * inverse_inertia));
-            let (velocity_before, spin_before) =
+            let (velocity_before, angular_velocity_before) =
                 (R::Simd4::load(&velocity[row]), R::Simd4::load(&angular_velocity[row]));
-            let (mut velocity_now, mut spin_now) = (velocity_before.plus(kick), spin_before.plus(turning));
+            let (mut velocity_now, mut angular_velocity_now) =
+                (velocity_before.plus(kick), angular_velocity_before.plus(turning));
             if FINISH && BEGIN {
                 velocity_now = velocity_now.plus(kick);
-                spin_now = spin_now.plus(turning);
+                angular_velocity_now = angular_velocity_now.plus(turning);
             }
             velocity_now.with_scalar_of(velocity_before).store(&mut velocity[row]);
-            spin_now.with_scalar_of(spin_before).store(&mut angular_velocity[row]);
+            angular_velocity_now.with_scalar_of(angular_velocity_before).store(&mut angular_velocity[row]);
             if BEGIN {
-                velocity_now.plus(kick).with_scalar_of(spin_before).store(&mut velocity_predicted[row]);
+                velocity_now
+                    .plus(kick)
+                    .with_scalar_of(angular_velocity_before)
+                    .store(&mut velocity_predicted[row]);
                 if predicts_angular_velocities {
-                    spin_now
+                    angular_velocity_now
                         .plus(turning)
-                        .with_scalar_of(spin_before)
+                        .with_scalar_of(angular_velocity_before)
                         .store(&mut angular_velocity_predicted[row]);
                 }
                 let before = R::Simd4::load(&position[row]);
@@ -169,7 +172,7 @@ impl<const FINISH: bool, const BEGIN: bool> Kernel for HalfKicks<'_, FINISH, BEG
                 let mut drift = Packed4::default();
                 velocity_now.store(&mut drift);
                 let speed = drift.vector.norm_squared();
-                // Not `>`: a NaN must not be passed over.
+                // Not `>`, which would ignore a NaN.
                 let slower = speed <= kicked.fastest;
                 if !slower {
                     kicked.fastest = if speed.is_nan() { f64::INFINITY } else { speed };

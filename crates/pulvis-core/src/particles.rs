@@ -1,4 +1,4 @@
-//! The particles, as columns grouped by who must know them.
+//! The particles, as columns.
 
 use std::ops::{Index, Range};
 
@@ -7,8 +7,8 @@ use pulvis_math::{Packed4, Vector3, elementary};
 use crate::columns::NamedColumn;
 use crate::thread_pool::ThreadPool;
 
-/// A particle's name: stable for its whole life, what files and interfaces show. Rows move when the
-/// neighbour search puts them into cell order; ids do not.
+/// The id of a particle, as files and interfaces show it. It never changes, whereas rows change when the neighbour search
+/// puts them into cell order.
 pub type ParticleId = u32;
 
 /// A material's index in the list of materials.
@@ -20,7 +20,7 @@ pub(crate) const SOLID_SPHERE: f64 = 0.4;
 /// A spherical particle to start with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
-    /// Place in the list of materials.
+    /// Index in the list of materials.
     pub material: MaterialIndex,
     /// Radius [m].
     pub radius: f64,
@@ -34,10 +34,9 @@ pub struct Particle {
     pub angular_velocity: Vector3,
 }
 
-/// All particles. Every column has one entry a row; rows are kept in cell order.
+/// All particles. Every column has one entry per row; rows are in cell order.
 ///
-/// What the loops read stands in packed vectors, a vector and a number that is needed with it: one load brings
-/// both.
+/// Loops read packed vectors: a vector and a number that is needed with it, so that one load instruction reads both.
 #[derive(Clone, Debug, Default)]
 pub struct Particles {
     // Fixed.
@@ -45,25 +44,24 @@ pub struct Particles {
     pub(crate) material: Vec<MaterialIndex>,
     pub(crate) radius: Vec<f64>,
     pub(crate) mass: Vec<f64>,
-    // KinematicColumns. Between the two kicks of a step, velocity and angular velocity are those of mid-step.
+    // Kinematic columns. Between the two kicks of a step, velocity and angular velocity are those at mid-step.
     /// Centre [m] and radius [m].
     pub(crate) position: Vec<Packed4>,
     /// Velocity [m/s] and 1/mass [1/kg].
     pub(crate) velocity: Vec<Packed4>,
     /// Angular velocity [rad/s] and 1/radius [1/m].
     pub(crate) angular_velocity: Vec<Packed4>,
-    // Result of the contact loop: force and torque of every row; behind them the parts of sums that
-    // are still to be brought together (see `Chunk`). Between the two kicks of a step, what has been
-    // summed up so far.
+    // Result of the contact loop: force and torque on every row, followed by the halo sums that are still to be added
+    // (see `Chunk`). Between the two kicks of a step, incomplete sums.
     pub(crate) forces_and_torques: Vec<ForceTorque>,
-    // Local to a step: what velocity and angular velocity will be at its end if forces stay as they were.
+    // Used within a step: velocity and angular velocity at its end if forces stay as they were.
     /// Velocity [m/s] and 1/radius [1/m].
     pub(crate) velocity_predicted: Vec<Packed4>,
     /// Angular velocity [rad/s] and 1/radius [1/m].
     pub(crate) angular_velocity_predicted: Vec<Packed4>,
-    /// Quantities that no part of the engine needs to know.
+    /// Quantities that the engine does not use.
     pub(crate) columns: Vec<NamedColumn>,
-    /// The id that the next particle will get: no id is given twice.
+    /// The id of the next particle: no id is used twice.
     pub(crate) next_id: ParticleId,
 }
 
@@ -81,7 +79,7 @@ impl ForceTorque {
     /// Force and torque.
     #[inline(always)]
     pub(crate) fn packed_mut(&mut self) -> &mut [Packed4; 2] {
-        // SAFETY: two packed vectors one behind the other, as `repr(C)` lays them out, are an array of two.
+        // SAFETY: `repr(C)` lays the two packed vectors out as an array of two.
         unsafe { &mut *(&raw mut *self).cast() }
     }
 }
@@ -139,7 +137,7 @@ impl Particles {
         columns
     }
 
-    /// Puts particles behind the last row. Answers with their ids, which count on from the last one given.
+    /// Appends particles as new rows. Returns their ids, which continue from the last id used.
     pub(crate) fn append(&mut self, particles: &[Particle]) -> Range<ParticleId> {
         let first = self.next_id;
         self.next_id += particles.len() as ParticleId;
@@ -160,7 +158,7 @@ impl Particles {
         first..self.next_id
     }
 
-    /// Takes back what was appended behind the first `rows`.
+    /// Keeps the first `rows` only.
     pub(crate) fn truncate(&mut self, rows: usize) {
         let order: Vec<u32> = (0..rows as u32).collect();
         self.reorder(&order, &ThreadPool::default());
@@ -245,8 +243,8 @@ impl Particles {
         SOLID_SPHERE * self.mass[row] * self.radius[row] * self.radius[row]
     }
 
-    /// Puts the rows into a new order: row k becomes what was row `order[k]`; rows that are not in the order are
-    /// gone. Forces and torques are not moved: they are computed anew after every change of order.
+    /// Puts the rows into a new order: row k becomes what was row `order[k]`; rows that are not in `order` are removed.
+    /// Forces and torques are not moved: they are computed again after every change of order.
     pub(crate) fn reorder(&mut self, order: &[u32], pool: &ThreadPool) {
         pool.reorder(&mut self.id, order, &mut Vec::new());
         pool.reorder(&mut self.material, order, &mut Vec::new());

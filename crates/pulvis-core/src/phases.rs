@@ -1,4 +1,4 @@
-//! Where the time goes.
+//! Time spent in the parts of a step.
 
 use std::ops::AddAssign;
 use std::time::Instant;
@@ -10,9 +10,9 @@ pub struct Phases {
     pub pairs: f64,
     /// Contacts with walls.
     pub walls: f64,
-    /// Bringing sums together, kicks and drift.
+    /// Adding up sums, kicks and drift.
     pub integration: f64,
-    /// Listing candidates anew; of one thread, while others may have helped.
+    /// Rebuilds of the neighbour list; wall time of one thread, while others may have helped.
     pub neighbours: f64,
 }
 
@@ -25,7 +25,7 @@ impl AddAssign for Phases {
     }
 }
 
-/// A clock that is looked at only where somebody wants to know.
+/// A clock that is read only if times are measured.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stopwatch(Option<Instant>);
 
@@ -34,7 +34,7 @@ impl Stopwatch {
         Self(wanted.then(Instant::now))
     }
 
-    /// Adds the time since the last look [s].
+    /// Adds the time since the last call [s].
     pub(crate) fn lap(&mut self, total: &mut f64) {
         if let Some(before) = self.0 {
             let now = Instant::now();

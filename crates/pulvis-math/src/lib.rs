@@ -1,7 +1,7 @@
 //! Level 0 of the house: scalars, vectors and physical dimensions.
 //!
-//! Nothing here knows physics. The scalar trait [`Real`] lets one text of a force law serve a
-//! single contact (`f64`) and the vectorised contact loop ([`F64Array`]).
+//! Nothing here knows physics. With the scalar trait [`Real`], one source text of a force law serves
+//! a single contact (`f64`) and the vectorised contact loop ([`Simd8`]).
 //!
 //! ```
 //! use pulvis_math::{F64Array, Real};

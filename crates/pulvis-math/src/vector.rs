@@ -114,7 +114,7 @@ impl Vector3<f64> {
         }
     }
 
-    /// The unit vector along `self`, or `None` for a vector of no direction.
+    /// The unit vector along `self`, or `None` for a vector without a direction.
     pub fn unit(self) -> Option<Self> {
         let norm = self.norm();
         (norm.is_finite() && norm > 0.0).then(|| self * (1.0 / norm))

@@ -1,4 +1,4 @@
-//! Candidate contacts of one contact model, in blocks of eight.
+//! Neighbour pairs of one contact model, in blocks of eight.
 
 use std::borrow::Cow;
 
@@ -15,18 +15,18 @@ pub(crate) type F64x8 = F64Array<8>;
 /// Contacts in a block.
 pub(crate) const WIDTH: usize = 8;
 
-/// Numbers in a packed vector, and in a load. Rows are kept as the slots of their numbers: processors multiply an
-/// index by the size of a number on the way, but not by that of a packed vector.
+/// Numbers in a [`Packed4`], and in a [`ForceTorque`]. Blocks keep the index of the first *number* of a row or slot, not
+/// the row itself: a load instruction can scale an index by 8 bytes, but not by 32 or 64.
 pub(crate) const PACKED4_NUMBERS: u32 = 4;
 pub(crate) const FORCE_TORQUE_NUMBERS: u32 = 8;
 
-/// What the first body of a group's contacts may meet.
+/// What the second bodies of a group's contacts are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Partner {
     /// Other particles.
     Particle,
-    /// Walls. All contacts of a block are with the same one; the number of its [`WallFeature`] stands for the rows
-    /// of the second bodies.
+    /// Walls. All contacts of a block are with the same wall; the number of its [`WallFeature`] stands in place of the
+    /// rows of the second bodies.
     Wall,
 }
 
@@ -36,8 +36,8 @@ pub(crate) enum Partner {
 #[repr(align(64))]
 pub(crate) struct LaneIndices(pub(crate) [[u32; WIDTH]; 2]);
 
-/// Candidate contacts of one chunk that one model rules: particle pairs of two materials, or particles
-/// of one material near one wall.
+/// The neighbour pairs of one chunk with one contact model: pairs of particles of two materials, or particles of one
+/// material near walls of another.
 #[derive(Clone, Debug)]
 pub(crate) struct ContactGroup {
     pub(crate) model: ContactModel,
@@ -49,40 +49,40 @@ pub(crate) struct ContactGroup {
     pub(crate) partner: Partner,
     /// Rows of the bodies of each block, times [`PACKED4_NUMBERS`].
     pub(crate) rows: Vec<LaneIndices>,
-    /// Where their forces and torques are summed: slots among those of the chunk, times [`FORCE_TORQUE_NUMBERS`]; those of walls mean
-    /// nothing. Apart from the rows: blocks that are looked at and found not to act need none.
+    /// Where their forces and torques are summed: slots of the chunk, times [`FORCE_TORQUE_NUMBERS`]; without meaning for
+    /// walls. Not beside the rows in memory, because blocks that do not act need rows only.
     pub(crate) sums: Vec<LaneIndices>,
-    /// How many contacts each block holds: eight, but in the last one and where another wall follows.
+    /// Number of contacts of each block: eight, except in the last block of the group or of a wall.
     pub(crate) occupancy: Vec<u8>,
-    /// Memory: for each block, one value of eight lanes a column.
+    /// Memory of the contacts: for each block, one value of eight lanes per column.
     pub(crate) memory: Vec<F64x8>,
-    /// Whether any contact of the block acted when it was last looked at. Blocks that did not, and
-    /// do not, are passed over.
+    /// Whether any contact of the block acted when it was last computed. A block must be computed once more after that,
+    /// so that its laws can forget.
     pub(crate) active: Vec<bool>,
-    /// The smallest gap that any contact of the block had to its reach when it was listed [m]: until
-    /// bodies have moved that far, the block needs no look.
+    /// The smallest gap to the interaction range of any contact of the block at the last rebuild [m]. A block that is not
+    /// active is skipped until the bodies can have moved that far.
     pub(crate) gap: Vec<f64>,
-    /// How many batches of blocks the last sweep computed.
+    /// Number of batches of blocks that the last pass computed.
     pub(crate) batches: usize,
-    /// Whether the nearest images of any two bodies of the block were across a periodic boundary when it was listed:
-    /// until the next list they stay, or stay away, there.
+    /// Whether any pair of the block was across a periodic boundary at the last rebuild. This does not change until the
+    /// next rebuild.
     pub(crate) crosses_boundary: Vec<bool>,
-    /// What the last sweep added up to, lane by lane.
+    /// Energies of the last pass, lane by lane.
     pub(crate) energies: ContactEnergies<F64x8>,
-    /// What is seen of the contacts in the last pass of an advance.
+    /// Sums over the contacts in the last pass of an advance.
     pub(crate) totals: GroupTotals<F64x8>,
-    /// The forces and torques of the last sweep on the first bodies, wall by wall; empty for particles.
+    /// Forces and torques of the last pass on the first bodies, wall by wall; empty for pairs of particles.
     pub(crate) wall_forces: Vec<WallForce>,
 }
 
-/// A candidate contact as it is listed.
+/// A neighbour pair as it is listed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate {
-    /// Rows of the bodies; of a wall the number of its feature.
+    /// Rows of the bodies; for a wall the number of its feature.
     pub(crate) rows: [u32; 2],
     /// Where their forces and torques are summed.
     pub(crate) sums: [u32; 2],
-    /// Gap to the reach [m].
+    /// Gap to the interaction range [m].
     pub(crate) gap: f64,
     /// Whether the nearest image is across a periodic boundary.
     pub(crate) crosses_boundary: bool,
@@ -130,12 +130,12 @@ impl ContactGroup {
         Self { model, layout, interaction_range, rate_squared, partner, energies, totals, ..group }
     }
 
-    /// Number of candidate contacts.
+    /// Number of neighbour pairs.
     pub(crate) fn len(&self) -> usize {
         self.occupancy.iter().map(|&occupancy| usize::from(occupancy)).sum()
     }
 
-    /// Memory of the candidates and of what they remember [byte].
+    /// Memory of the pairs and of their contacts [byte].
     pub(crate) fn memory_size(&self) -> usize {
         size_of_val(&self.rows[..])
             + size_of_val(&self.sums[..])
@@ -158,7 +158,7 @@ impl ContactGroup {
         self.gap.reserve(blocks);
     }
 
-    /// Adds a block of up to eight candidates, each with its memory where it has any.
+    /// Adds a block of up to eight pairs. `memory` returns the stored memory of a lane, if there is any.
     #[inline(always)]
     pub(crate) fn push_block<'a>(
         &mut self,
@@ -223,8 +223,8 @@ impl ContactGroup {
         usize::from(self.occupancy[block])
     }
 
-    /// Writes down what the contacts remember that remember anything, behind what stands in `records`. Calls
-    /// `action` with block and lane of each, and the index where its record begins.
+    /// Appends the memory of every contact with a column that is not zero to `records`. Calls `action` with the block and
+    /// lane of each, and the index where its record begins.
     pub(crate) fn for_each_memory(
         &self,
         records: &mut Vec<f64>,

@@ -1,40 +1,40 @@
-//! A run of rows, the contacts that it owns, and the sums of their forces and torques.
+//! A chunk: consecutive rows, the contacts that they own, and the sums of their forces and torques.
 
 use std::ops::Range;
 
 use super::block::ContactGroup;
 use crate::phases::Phases;
 
-/// Rows of a chunk at the least, so that its blocks are full, and at the most, so that it fits into a
+/// Smallest and largest number of rows of a chunk: blocks of eight shall be full, and the chunk shall fit into a
 /// second-level cache.
 const ROWS: Range<usize> = 128..1024;
-/// Chunks that small systems are cut into, so that several threads find work.
+/// Number of chunks of small systems, so that several threads have work.
 const CHUNKS: usize = 12;
 
 /// Consecutive rows, and every contact whose lower row is one of them.
 ///
-/// Chunks are what threads take their work by. Each sums the forces and torques of its contacts in slots of its own:
+/// Threads take their work chunk by chunk. Each chunk sums the forces and torques of its contacts in slots of its own:
 /// one for each of its rows, then one for each row of later chunks that it has contacts with (its halo).
-/// A row's load is the sum of its own index and of the halos of earlier chunks, in their order: no two
-/// threads write to the same index, and the order of every sum is fixed.
+/// The force on a particle is the sum of its own chunk plus the halo contributions of earlier chunks, added in chunk
+/// order: no two threads write to the same slot, and the order of every sum is fixed.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Chunk {
     pub(crate) rows: Range<usize>,
     pub(crate) groups: Vec<ContactGroup>,
-    /// Rows of later chunks, in ascending order: what listing gives to the list of all halos.
+    /// Rows of later chunks that it has contacts with, in ascending order; copied into the list of all halos.
     pub(crate) halo: Vec<u32>,
-    /// Parts of the halos of earlier chunks that are rows of this one.
+    /// The parts of earlier chunks' halos that are rows of this chunk.
     pub(crate) halo_contributions: Vec<HaloContribution>,
-    /// How far the bodies of its contacts have moved.
+    /// By how much the gaps of its contacts can have closed.
     pub(crate) approach: Approach,
-    /// Time spent on its contacts since it was listed.
+    /// Time spent on its contacts since the last rebuild.
     pub(crate) phases: Phases,
-    /// Later chunks that wait for this one.
+    /// Later chunks that this one contributes to.
     pub(crate) dependents: Vec<u32>,
 }
 
-/// By how much gaps can have closed since candidates were listed [m]: those between the particles that
-/// contacts of a chunk are of, and those between its rows and walls.
+/// Upper bounds of how much the gaps of a chunk can have closed since the last rebuild [m]: gaps between particles, and
+/// gaps between its particles and walls.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Approach {
     pub(crate) pairs: f64,

@@ -1,4 +1,4 @@
-//! One sweep over all contacts: chunk by chunk, each finished when its forces and torques are complete.
+//! One pass over all contacts, chunk by chunk. Each chunk is finished when its forces and torques are complete.
 
 use std::ops::Range;
 
@@ -13,31 +13,31 @@ use crate::phases::Stopwatch;
 use crate::shared::Shared;
 use crate::walls::WallNow;
 
-/// What a sweep over all contacts works on.
+/// The inputs of a pass over all contacts.
 #[derive(Clone, Copy)]
 pub(crate) struct Sweep<'a> {
-    /// Room for forces and torques that are not complete at once: for all rows, and for all halos behind them.
+    /// Forces and torques that are not complete yet: one slot per row, then one per halo row of any chunk.
     pub(crate) forces_and_torques: Shared<'a, ForceTorque>,
     pub(crate) moving: KinematicColumns<'a>,
     pub(crate) walls: &'a [WallNow],
     pub(crate) advance: &'a Advance,
-    /// Whether `forces_and_torques` are to hold those on all rows at the end, as they were finished.
+    /// Whether `forces_and_torques` shall hold the complete ones of all rows at the end.
     pub(crate) keep: bool,
 }
 
 /// The halos of all chunks.
 #[derive(Clone, Copy)]
 pub(super) struct Halos<'a> {
-    /// One behind the other.
+    /// The rows of all halos, chunk after chunk.
     pub(super) rows: &'a [u32],
     /// Where the halo of each chunk begins, and the end.
     pub(super) starts: &'a [usize],
-    /// Number of all rows: the sums of halos stand behind theirs.
+    /// Number of all rows; the slots of halos follow the slots of rows.
     pub(super) row_count: usize,
 }
 
 impl<'a> Halos<'a> {
-    /// The halo of a chunk; none behind the last chunk.
+    /// The halo of a chunk; empty beyond the last chunk.
     fn of(self, number: usize) -> &'a [u32] {
         match self.starts.get(number..number + 2) {
             Some(&[start, end]) => &self.rows[start..end],
@@ -46,7 +46,7 @@ impl<'a> Halos<'a> {
     }
 }
 
-/// A sweep on its way; see [`Sweep`].
+/// A pass over all contacts; see [`Sweep`].
 pub(super) struct ForcePass<'a, F> {
     pub(super) sweep: Sweep<'a>,
     pub(super) chunks: Shared<'a, Chunk>,
@@ -54,28 +54,28 @@ pub(super) struct ForcePass<'a, F> {
     pub(super) sums: Shared<'a, Sums>,
     pub(super) hand_over: &'a HandOver,
     pub(super) halos: Halos<'a>,
-    /// Told the number of a chunk, its rows and the complete forces and torques on them.
+    /// Called with the number of a chunk, its rows and the complete forces and torques on them.
     pub(super) finish: F,
 }
 
 impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
-    /// Computes the contacts of a chunk, and finishes what is complete with it.
+    /// Computes the contacts of a chunk, and finishes the chunks that are complete thereby.
     ///
     /// # Safety
     /// No other thread works as this `worker`, and none computes this chunk.
     pub(super) unsafe fn compute(&self, worker: usize, number: usize) {
         let Sweep { forces_and_torques, keep, .. } = self.sweep;
-        // SAFETY: the caller's; nobody looks at a chunk before it has counted down below.
+        // SAFETY: the caller's; no other thread reads a chunk before it has counted down below.
         let (sums, chunk) = unsafe { (self.sums.get_mut(worker), self.chunks.get_mut(number)) };
         let sums = self.sum_contacts(number, chunk, sums);
-        // From here on the chunk is only read, until the next sweep.
+        // From here on the chunk is only read, until the next pass.
         let (chunk, rows) = (&*chunk, chunk.rows.clone());
         let (own, halo) = sums.split_at_mut(rows.len());
         let start = self.halos.row_count + self.halos.starts[number];
         // SAFETY: only this chunk writes these slots; they are read after it has counted down.
         unsafe { forces_and_torques.range_mut(start..start + halo.len()) }.copy_from_slice(halo);
         if self.hand_over.completes_at_once(number) {
-            // SAFETY: all chunks that contribute to this one have counted down, and nobody else finishes it.
+            // SAFETY: all chunks that contribute to this one have counted down, and no other thread finishes it.
             unsafe { self.complete(chunk, own) };
             (self.finish)(number, rows.clone(), own);
             if keep {
@@ -98,7 +98,7 @@ impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
         }
     }
 
-    /// Adds up the forces and torques of a chunk's contacts: those on its rows, then those on its halo.
+    /// Sums the forces and torques of a chunk's contacts: those on its rows, then those on its halo.
     fn sum_contacts<'b>(
         &self,
         number: usize,
@@ -107,7 +107,7 @@ impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
     ) -> &'b mut [ForceTorque] {
         let Sweep { moving, walls, advance, .. } = self.sweep;
         let Chunk { rows, groups, phases, approach, .. } = chunk;
-        // The largest group comes first, and the next chunk is mostly the one behind this.
+        // Prefetching happens in the first group, which is the largest. The next chunk is usually the following one.
         let next_halo = self.halos.of(number + 1);
         let count = rows.len() + self.halos.of(number).len();
         let ChunkSums { sums, next: next_sums, next_zeroed } =
@@ -133,10 +133,10 @@ impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
         sums
     }
 
-    /// Finishes a chunk whose sums stand in the forces and torques of its rows.
+    /// Finishes a chunk whose own sums are stored in the slots of its rows.
     ///
     /// # Safety
-    /// All chunks with a part in this one have counted down, and no other thread finishes it.
+    /// All chunks that contribute to this one have counted down, and no other thread finishes it.
     pub(super) unsafe fn finish_stored(&self, number: usize) {
         // SAFETY: the caller's.
         unsafe {
@@ -147,15 +147,15 @@ impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
         }
     }
 
-    /// Adds to the forces and torques on the rows of a chunk what earlier chunks' halos hold of them, in their order.
+    /// Adds the halo contributions of earlier chunks to the forces and torques on the rows of a chunk, in chunk order.
     ///
     /// # Safety
-    /// All contacts of the chunk and of those with a part in it have been computed.
+    /// All contacts of the chunk and of those that contribute to it have been computed.
     unsafe fn complete(&self, chunk: &Chunk, own: &mut [ForceTorque]) {
         let Halos { rows, row_count, .. } = self.halos;
         for HaloContribution { slots } in &chunk.halo_contributions {
             for slot in slots.clone() {
-                // SAFETY: the caller's; slots of halos lie behind those of all rows.
+                // SAFETY: the caller's; the slots of halos follow those of all rows.
                 let part = unsafe { self.sweep.forces_and_torques.get(row_count + slot) };
                 let sum = &mut own[rows[slot] as usize - chunk.rows.start];
                 sum.force.vector += part.force.vector;

@@ -1,4 +1,4 @@
-//! Which contact model rules which pair of materials.
+//! The contact model of each pair of materials.
 
 use pulvis_contact::{ContactModel, Pair};
 use pulvis_math::max_or_nan;
@@ -10,7 +10,7 @@ use crate::particles::MaterialIndex;
 pub struct Interactions {
     materials: usize,
     models: Vec<Option<ContactModel>>,
-    /// The pairs of materials that can meet among the particles and walls that there are.
+    /// The pairs of materials that can meet among the present particles and walls.
     groups: Vec<Group>,
     /// The group of each pair of materials.
     group_of: Vec<u32>,
@@ -21,7 +21,7 @@ pub struct Interactions {
 struct Group {
     /// Its index in the table of models.
     pair: usize,
-    /// How far beyond touching its contacts act [m], between the largest bodies that there are.
+    /// How far beyond touching its contacts act [m], for the largest present bodies.
     range: f64,
 }
 
@@ -55,17 +55,17 @@ impl Interactions {
 
     /// The model of a pair of materials, if there is one.
     pub fn get(&self, one: MaterialIndex, other: MaterialIndex) -> Option<&ContactModel> {
-        // Beyond the table, the index would be that of another pair.
+        // Outside the table, the index would be that of another pair.
         let listed = usize::from(one.max(other)) < self.materials;
         if listed { self.models[self.pair(one, other)].as_ref() } else { None }
     }
 
-    /// How many groups of pairs there are. Those that no particle or wall is of take no room.
+    /// Number of groups. Pairs of materials that no present body has are not among them.
     pub(crate) fn groups(&self) -> usize {
         self.groups.len()
     }
 
-    /// The group of a pair of materials that there are, the same in either order.
+    /// The group of a pair of present materials, the same in either order.
     #[inline(always)]
     pub(crate) fn group(&self, one: MaterialIndex, other: MaterialIndex) -> usize {
         self.group_of[self.pair(one, other)] as usize
@@ -88,8 +88,7 @@ impl Interactions {
         self.models.iter().flatten()
     }
 
-    /// Takes in the materials that there are: those of particles, with the largest radius of each [m], and those of
-    /// walls.
+    /// Sets the present materials: those of particles, with the largest radius of each [m], and those of walls.
     pub(crate) fn fit(&mut self, largest_radii: &[(MaterialIndex, f64)], walls: &[MaterialIndex]) {
         let radius = |material: usize| {
             largest_radii.iter().find(|(known, _)| usize::from(*known) == material).map(|(_, radius)| *radius)

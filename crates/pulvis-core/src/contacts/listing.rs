@@ -1,4 +1,4 @@
-//! Listing the candidates of a chunk.
+//! The neighbour list of one chunk.
 
 use pulvis_math::Packed4;
 
@@ -13,28 +13,30 @@ use crate::neighbours::{CellGrid, RowRangePair};
 use crate::phases::Phases;
 use crate::walls::{WallFeature, WallForce};
 
-/// Candidates are sorted into blocks by their gap over the thickest skin, up to these bounds and beyond: what touches
-/// now fills whole blocks, and blocks of what is far apart are passed over until something has moved.
+/// Pairs are sorted into classes by their gap over the thickest skin; these are the upper bounds of all classes but the
+/// last. Blocks are then full of contacts that touch, and blocks of pairs that are far apart can be skipped until the
+/// bodies have moved.
 const GAP_CLASSES: [f64; 3] = [0.01, 0.06, 0.3];
-/// In each class, pairs across a periodic boundary come last.
+/// In each class of gaps, pairs across a periodic boundary come last.
 const CLASSES: usize = 2 * (GAP_CLASSES.len() + 1);
 
-/// Room for the candidates of one chunk after the other.
+/// Scratch memory to list one chunk after the other.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Listing {
     row_ranges: Vec<RowRangePair>,
     near: Vec<Near>,
-    /// Of each pair that is near, by group and class of gaps; what is too far apart comes last.
+    /// The sort key of each pair in `near`: its group times [`CLASSES`] plus its class. Pairs that are too far apart have
+    /// the last key.
     classes: Vec<u32>,
-    /// The pairs by class, then in cell order, and where each class begins.
+    /// The pairs sorted by key, and where each key begins. Pairs of one key stay in cell order.
     order: Vec<u32>,
     class_starts: Vec<u32>,
-    /// The rows of later chunks.
+    /// The rows of later chunks that the chunk has contacts with.
     halo: RowSet,
     candidates: Vec<Candidate>,
 }
 
-/// What the list of candidates is made from.
+/// The inputs of a listing.
 #[derive(Clone, Copy)]
 pub(super) struct Sources<'a> {
     pub(super) around: &'a Surroundings<'a>,
@@ -43,7 +45,7 @@ pub(super) struct Sources<'a> {
 }
 
 impl Listing {
-    /// Lists the candidates of a chunk anew; contacts keep their memory.
+    /// Lists the pairs of a chunk again; contacts get their memory back.
     pub(super) fn list(&mut self, chunk: &mut Chunk, sources: Sources<'_>) {
         let mut spare = std::mem::take(&mut chunk.groups).into_iter();
         chunk.halo_contributions.clear();
@@ -65,18 +67,22 @@ impl Listing {
             + self.halo.memory_size()
     }
 
-    /// Finds the pairs that may touch before the next list, and sorts them.
+    /// Finds the pairs that may act before the next rebuild, and sorts them by group and class.
+    ///
+    /// The search returns gaps between the *skins* of two bodies. A pair is listed if this gap, less the interaction
+    /// range of its group, is negative. What is kept is the gap between the *bodies* to their interaction range: with
+    /// that the contact loop decides whether to skip a block.
     fn find_near(&mut self, chunk: &Chunk, Sources { around, grid, .. }: Sources<'_>) {
         let Surroundings { particles, interactions, images, skin, instructions, .. } = *around;
         let (skinned, material) = (skin.positions(), &particles.material);
         let Self { row_ranges, near, classes, .. } = self;
         row_ranges.clear();
         let rows = chunk.rows.start as u32..chunk.rows.end as u32;
-        grid.for_each_row_range_pair_of(rows, skinned, |stretch| row_ranges.push(stretch));
+        grid.for_each_row_range_pair_of(rows, skinned, |pair| row_ranges.push(pair));
         near.clear();
         let margin = interactions.longest_range();
         instructions.run(Search { row_ranges, positions: skinned, images, margin, near });
-        // What has no model is never near.
+        // Materials without a contact model never interact.
         let range =
             |group| interactions.model(group).map_or(f64::NEG_INFINITY, |_| interactions.range(group));
         let ranges: Vec<f64> = (0..interactions.groups()).map(range).collect();
@@ -88,9 +94,8 @@ impl Listing {
             let [one, other] = pair.rows;
             let group = interactions.group(material[one as usize], material[other as usize]);
             let between_skins = pair.gap - ranges[group];
-            // From here on the gap is that of the bodies themselves to the range of their contact.
             pair.gap = between_skins + (skin_of(one) + skin_of(other));
-            // Without branches: gaps follow no pattern.
+            // Without branches, which would be unpredictable here.
             let class: usize = bounds.iter().map(|bound| usize::from(pair.gap > *bound)).sum();
             let [first, second] = [one, other].map(|row| skinned[row as usize].vector);
             let class = 2 * class + usize::from(images.are_crossed(first - second));
@@ -108,9 +113,9 @@ impl Listing {
         let id = &around.particles.id;
         let Self { near, classes, order, class_starts, halo, candidates, .. } = self;
         let (start, end) = (chunk.rows.start as u32, chunk.rows.end as u32);
-        let near_ones = class_starts[class_starts.len() - 2] as usize;
+        let near_count = class_starts[class_starts.len() - 2] as usize;
         halo.begin(around.particles.len());
-        order[..near_ones].iter().for_each(|&pair| halo.insert(near[pair as usize].rows[1]));
+        order[..near_count].iter().for_each(|&pair| halo.insert(near[pair as usize].rows[1]));
         halo.count_from(end, &mut chunk.halo);
         for (index, starts) in class_starts.windows(CLASSES + 1).step_by(CLASSES).enumerate() {
             let Some(&model) = around.interactions.model(index) else { continue };
@@ -122,8 +127,8 @@ impl Listing {
                 let own = one - start;
                 let beyond = end - start + halo.slot(other);
                 let others = if other < end { other - start } else { beyond };
-                // The first body of a contact is the one of the lower id: what the contact remembers
-                // does not change its sign when rows change their order.
+                // The first body of a contact is the one with the lower id: remembered vectors then keep their sign
+                // when rows change their order.
                 if id[one as usize] < id[other as usize] {
                     Candidate { rows: [one, other], sums: [own, others], gap, crosses_boundary }
                 } else {
@@ -144,7 +149,7 @@ impl Listing {
         }
     }
 
-    /// Lists what may touch walls: one group for each model, in it wall by wall.
+    /// Lists the pairs of a particle and a wall: one group for each model, in it wall by wall.
     fn list_walls(
         &mut self,
         chunk: &mut Chunk,

@@ -1,4 +1,4 @@
-//! The contact table: candidate pairs in blocks of eight, and what each contact remembers.
+//! The contact table: neighbour pairs in blocks of eight, and the memory of each contact.
 
 mod block;
 mod chunk;

@@ -1,4 +1,4 @@
-//! How contact memory survives a new list of candidates.
+//! Keeps the memory of contacts over a rebuild of the neighbour list.
 
 use std::borrow::Cow;
 
@@ -9,19 +9,19 @@ use super::chunk::Chunk;
 use crate::thread_pool::ThreadPool;
 use crate::walls::WallFeature;
 
-/// The memory of all contacts that remember anything, by the rows that their bodies had when it was
-/// inputs: rows that follow each other are near each other, ids are not.
+/// The memory of all contacts that remember anything, by the rows that their bodies had when it was stored. Rows are used
+/// and not ids, because neighbouring rows are near each other in space and in memory.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MemoryStore {
-    /// One for each chunk of then.
+    /// One for each chunk at that time.
     chunks: Vec<ChunkMemory>,
-    /// Rows of a chunk, but for the last one.
+    /// Rows per chunk, except in the last one.
     length: u32,
-    /// The layouts that records are written with.
+    /// The layouts of the records.
     layouts: Vec<MemoryLayout>,
 }
 
-/// The index of a group's layout among those of a store; none if nothing was written with it.
+/// The index of a group's layout among those of a store; `None` if the store has no record of this layout.
 pub(crate) type LayoutNumber = Option<u32>;
 
 /// The memory of the contacts that a chunk owned, by the lower row.
@@ -30,7 +30,7 @@ struct ChunkMemory {
     first_row: usize,
     /// First entry of each row, and one more at the end.
     starts: Vec<u32>,
-    /// The higher row of each entry, or what stands for a wall; and then some more, to be read eight at a time.
+    /// The higher row of each entry, or the number of a wall partner; padded so that eight can be read at a time.
     partners: Vec<u32>,
     entries: Vec<Entry>,
     records: Vec<f64>,
@@ -45,13 +45,13 @@ struct Entry {
     record: u32,
 }
 
-/// What stands for a feature of a wall where other contacts have the row of their second body.
+/// The number of a wall feature, used where contacts between particles have the row of the second body.
 pub(crate) fn wall_partner(feature: WallFeature) -> u32 {
     u32::MAX - feature.number()
 }
 
 impl MemoryStore {
-    /// Takes in the memory of the contacts of all chunks; what was in it before is forgotten.
+    /// Stores the memory of the contacts of all chunks, in place of what was stored before.
     pub(crate) fn gather(&mut self, chunks: &[Chunk], pool: &ThreadPool) {
         self.length = chunks.first().map_or(0, |chunk| chunk.rows.len() as u32);
         self.layouts.clear();
@@ -66,7 +66,7 @@ impl MemoryStore {
         self.chunks = memories;
     }
 
-    /// The number that [`find`](Self::find) asks for, for all contacts of a group.
+    /// The layout number of a group, for [`find`](Self::find).
     pub(crate) fn layout_number(&self, group: &ContactGroup) -> LayoutNumber {
         self.layouts.iter().position(|known| *known == group.layout).map(|number| number as u32)
     }
@@ -76,8 +76,8 @@ impl MemoryStore {
         self.chunks.iter().map(ChunkMemory::memory_size).sum()
     }
 
-    /// The memory of the contact between two bodies, by their rows of then, in the layout of the group that
-    /// it now belongs to, which has this `number` here.
+    /// The memory of the contact between two bodies, by their stored rows, in the layout of the group that it now
+    /// belongs to. `number` is the [layout number](Self::layout_number) of that group.
     #[inline(always)]
     pub(crate) fn find(
         &self,
@@ -121,7 +121,8 @@ impl ChunkMemory {
         }
         self.entries.resize(unsorted.len(), Entry::default());
         self.partners.resize(unsorted.len() + 8, 0);
-        // Every row's next free index is kept where the row begins, until all are moved back by one.
+        // While entries are placed, `starts[row]` is the next free index of the row. At the end it is the start of the
+        // next row, so that a shift by one restores the starts.
         for &([row, partner], entry) in &unsorted {
             let index = &mut self.starts[row as usize];
             self.partners[*index as usize] = partner;
@@ -142,14 +143,14 @@ impl ChunkMemory {
             + self.unsorted.capacity() * size_of::<([u32; 2], Entry)>()
     }
 
-    /// The number of the layout of what two rows' contact remembers, and the records from there on.
+    /// The layout number of the contact of two rows, and the records from its first value on.
     #[inline(always)]
     fn find(&self, row: u32, partner: u32) -> Option<(u32, &[f64])> {
         let index = row as usize - self.first_row;
         let (mut start, end) = (*self.starts.get(index)?, *self.starts.get(index + 1)?);
         while start < end {
             let eight = self.partners.get(start as usize..)?.first_chunk::<8>()?;
-            // Without a branch for each: how many a row has follows no pattern.
+            // Without a branch for each entry: branches would be unpredictable here.
             let equal = (0..8).fold(0_u32, |bits, lane| bits | u32::from(eight[lane] == partner) << lane);
             let found = start + equal.trailing_zeros();
             if found < end.min(start + 8) {

@@ -1,4 +1,4 @@
-//! What contacts remember, by the ids of their bodies: out of the table, and back into one that lists the same.
+//! Export and import of contact memory by the ids of the bodies.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -10,15 +10,15 @@ use super::block::{ContactGroup, Partner};
 use crate::particles::ParticleId;
 use crate::walls::WallFeature;
 
-/// What contacts with the same columns of memory remember, one entry a contact. The sign of what they remember is
-/// that for the first body.
+/// The memory of contacts with the same columns, one entry per contact. Remembered vectors have the sign
+/// for the first body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactRecords {
     /// Whether the second bodies are walls.
     pub with_walls: bool,
     /// Ids of the first bodies.
     pub first: Vec<ParticleId>,
-    /// Ids of the second bodies; of a wall the number of its feature, which is the wall's index where it has only one.
+    /// Ids of the second bodies; for a wall the number of its feature, which is the index of the wall if it has only one.
     pub second: Vec<u32>,
     /// Columns of memory.
     pub columns: Vec<MemoryColumn>,
@@ -35,7 +35,7 @@ pub struct MemoryColumn {
     pub values: Vec<f64>,
 }
 
-/// Why contacts cannot remember what they are given.
+/// Why contact memory cannot be imported.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum MemoryError {
@@ -152,7 +152,7 @@ fn key_of(group: &ContactGroup, ids: &[ParticleId], block: usize, lane: usize) -
 }
 
 impl ContactTable {
-    /// What all contacts remember, and which blocks act. `ids` are those of the rows.
+    /// The memory of all contacts, and which blocks are active. `ids` are those of the rows.
     pub(crate) fn export(&self, ids: &[ParticleId]) -> (Vec<ContactRecords>, Vec<bool>) {
         let mut tables: Vec<ContactRecords> = Vec::new();
         let mut active = Vec::new();
@@ -170,7 +170,7 @@ impl ContactTable {
             for block in 0..group.rows.len() {
                 let columns = group.columns(block);
                 for lane in 0..group.occupancy(block) {
-                    // Not only what is not zero, and not only of blocks that act: these bits come back as they are.
+                    // Also columns of negative zero, and blocks that are not active: all bits are restored.
                     if columns.iter().all(|column| column.0[lane].to_bits() == 0) {
                         continue;
                     }
@@ -192,7 +192,7 @@ impl ContactTable {
         self.groups().map(|group| group.rows.len()).sum()
     }
 
-    /// Gives all contacts, which have no memory yet, what they remember; `active` has one entry for each of the
+    /// Fills in the memory of all contacts, which have none yet. `active` has one entry for each of the
     /// [`blocks`](Self::blocks).
     ///
     /// # Errors

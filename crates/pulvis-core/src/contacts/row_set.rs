@@ -1,13 +1,13 @@
-//! A set of rows, and the slot of each among them.
+//! A set of rows that knows the rank of each of its rows.
 
-/// Rows of a word.
+/// Rows per word.
 const WIDTH: u32 = u64::BITS;
 
-/// A set of rows that tells how many of its rows come before one of them, without a search.
+/// A set of rows as bits, which counts how many of its rows come before a given one without a search.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RowSet {
     words: Vec<Word>,
-    /// The words that hold any row.
+    /// The words that are not empty.
     filled: Vec<u32>,
 }
 
@@ -19,7 +19,7 @@ struct Word {
 }
 
 impl RowSet {
-    /// Forgets all rows; from now on there may be any below `rows`.
+    /// Empties the set and makes room for rows below `rows`.
     pub(super) fn begin(&mut self, rows: usize) {
         for word in self.filled.drain(..) {
             self.words[word as usize].rows = 0;
@@ -36,8 +36,8 @@ impl RowSet {
         word.rows |= 1 << (row % WIDTH);
     }
 
-    /// Drops the rows before `first`, counts the others, for [`slot`](Self::slot) to be right, and writes
-    /// them down in ascending order.
+    /// Drops the rows before `first`, writes the others into `rows` in ascending order, and prepares
+    /// [`slot`](Self::slot).
     pub(super) fn count_from(&mut self, first: u32, rows: &mut Vec<u32>) {
         rows.clear();
         self.filled.sort_unstable();
@@ -54,8 +54,8 @@ impl RowSet {
         }
     }
 
-    /// How many rows of the set come before `row`, which is one of them; of another row, which some insertion
-    /// has named, anything.
+    /// Number of rows of the set that come before `row`. `row` must be one of them; for a row that was inserted and
+    /// dropped the result has no meaning.
     #[inline(always)]
     pub(super) fn slot(&self, row: u32) -> u32 {
         let word = &self.words[(row / WIDTH) as usize];

@@ -1,4 +1,4 @@
-//! Which of the rows that may be near each other are.
+//! Finds the pairs that are near each other among the rows of adjacent cells.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use pulvis_math::{F64Array, Kernel, Mask, Packed4, Simd4, Simd8, Vector3};
 use crate::neighbours::RowRangePair;
 use pulvis_boundary::Images;
 
-/// Two rows near each other, the lower one first, and the gap between their surfaces [m].
+/// Two rows that are near each other, the lower one first, and the gap between their surfaces [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Near {
     pub(super) rows: [u32; 2],
@@ -23,7 +23,7 @@ pub(super) struct Search<'a> {
     pub(super) near: &'a mut Vec<Near>,
 }
 
-/// Rows that are looked at together: one bit for each.
+/// Rows that are compared together: one bit for each.
 const TILE: usize = u64::BITS as usize;
 const EIGHTS: usize = TILE / 8;
 
@@ -45,14 +45,14 @@ impl Kernel for Search<'_> {
         let mut others = Vec::new();
         let mut tile = Tile::default();
         while let Some(&RowRangePair { ones, others: first }) = row_ranges.first() {
-            // Stretches of the same rows, one behind the other: short ones would leave most lanes idle.
+            // All ranges with the same `ones` are joined: a short range alone would leave most lanes idle.
             let count = write_out(&mut row_ranges, ones, &mut others);
             for start in (0..count).step_by(TILE) {
                 let end = count.min(start + TILE);
                 let some = &others[start..end.next_multiple_of(8)];
                 tile.fill::<R>(positions, some);
                 for one in ones.0..ones.1 {
-                    // Only the first stretch may hold rows that are not later.
+                    // Only the first range may contain rows that are not later.
                     let earlier = ((one + 1).clamp(first.0, first.1) - first.0) as usize;
                     let Packed4 { vector, scalar } = positions[one as usize];
                     let found = tile.near::<R>(end - start, vector, scalar + margin, images);
@@ -64,8 +64,8 @@ impl Kernel for Search<'_> {
     }
 }
 
-/// The rows of all stretches that come first and have the same `ones`, and their number. Behind them stands the
-/// last one, until the number is a multiple of eight.
+/// Takes the leading ranges with the same `ones` off `row_ranges` and writes their rows into `rows`. Returns the number
+/// of rows. The last row is repeated so that eight can be loaded at any position.
 #[inline(always)]
 fn write_out(row_ranges: &mut &[RowRangePair], ones: (u32, u32), rows: &mut Vec<u32>) -> usize {
     let mut count = 0;
@@ -76,7 +76,7 @@ fn write_out(row_ranges: &mut &[RowRangePair], ones: (u32, u32), rows: &mut Vec<
         if rows.len() < count + length + 16 {
             rows.resize(2 * (count + length + 16), 0);
         }
-        // Eight at a time, though there may be fewer.
+        // Always eight at a time; what is written too much is overwritten.
         for written in (0..length).step_by(8) {
             let row = start + written as u32;
             rows[count + written..count + written + 8].copy_from_slice(&[
@@ -100,7 +100,7 @@ fn write_out(row_ranges: &mut &[RowRangePair], ones: (u32, u32), rows: &mut Vec<
     count
 }
 
-/// Ones in a range of positions.
+/// A word with ones in a range of bit positions.
 #[inline(always)]
 fn bits(positions: Range<usize>) -> u64 {
     let below = |index: usize| u64::MAX.checked_shr((TILE - index.min(TILE)) as u32).unwrap_or(0);
@@ -117,8 +117,8 @@ impl Tile {
         }
     }
 
-    /// A bit for each of the first `count` rows, and perhaps for some behind them, whose centre is nearer than
-    /// `reach` [m] and its radius.
+    /// One bit per row: whether its centre is nearer to `centre` than `interaction_range` [m] plus its radius. Bits beyond
+    /// the first `count` rows have no meaning.
     #[inline(always)]
     fn near<R: Simd8>(
         &mut self,
@@ -142,7 +142,7 @@ impl Tile {
         found
     }
 
-    /// Writes down the pairs of a row, given with its radius [m], and those among `rows` that were `found` near it.
+    /// Appends the pairs of a row, given with its radius [m], and the rows that were `found` near it.
     #[inline(always)]
     fn write_down(&self, mut found: u64, (one, radius): (u32, f64), rows: &[u32], near: &mut Vec<Near>) {
         near.reserve(TILE);

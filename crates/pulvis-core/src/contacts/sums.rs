@@ -2,10 +2,10 @@
 
 use crate::particles::ForceTorque;
 
-/// Two buffers of a worker: one for the forces and torques of the present chunk, one for those of the next.
+/// Two buffers of a worker: sums of forces and torques for the present chunk, and for the next one.
 ///
-/// The next buffer is zeroed bit by bit while the present chunk is computed: all at once, the processor would wait for
-/// its caches.
+/// The next buffer is zeroed in small parts while the present chunk is computed. Zeroing it all at once would wait for
+/// the caches.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sums {
     present: Vec<ForceTorque>,
@@ -16,16 +16,17 @@ pub(super) struct Sums {
 
 /// The buffers while a chunk is computed.
 pub(super) struct ChunkSums<'a> {
-    /// The sums of this chunk, zero to begin with.
+    /// The sums of this chunk, initially zero.
     pub(super) sums: &'a mut [ForceTorque],
-    /// Those of the next chunk, which may be zeroed on the way.
+    /// The sums of the next chunk; the pass over this chunk may zero them.
     pub(super) next: &'a mut [ForceTorque],
-    /// To be set to how many of `next` have been zeroed.
+    /// Set this to the number of entries of `next` that have been zeroed.
     pub(super) next_zeroed: &'a mut usize,
 }
 
 impl Sums {
-    /// Exchanges the buffers: `count` sums for the present chunk, and for the next one as many as it is likely to need.
+    /// Swaps the buffers: what was `next` becomes the `count` sums of this chunk, of which only the part that is not yet
+    /// zero is filled. `next_count` is how many sums the next chunk is likely to need.
     pub(super) fn of_chunk(&mut self, count: usize, next_count: usize) -> ChunkSums<'_> {
         std::mem::swap(&mut self.present, &mut self.next);
         let zeroed = std::mem::take(&mut self.next_zeroed).min(count);

@@ -1,4 +1,4 @@
-//! All candidate contacts: listed anew when bodies have moved, and swept every step.
+//! The neighbour list: rebuilt when bodies have left their skins, and computed in every step.
 
 use std::ops::Range;
 
@@ -22,12 +22,12 @@ use crate::thread_pool::ThreadPool;
 use crate::walls::{Wall, WallForce, WallNow};
 use pulvis_boundary::Images;
 
-/// The candidates and what they remember.
+/// All neighbour pairs, and the memory of their contacts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactTable {
     chunks: Vec<Chunk>,
     row_count: usize,
-    /// The halos of all chunks, one behind the other.
+    /// The rows of all halos, chunk after chunk.
     halos: Vec<u32>,
     /// Where the halo of each chunk begins, and the end.
     halo_starts: Vec<usize>,
@@ -39,11 +39,11 @@ pub(crate) struct ContactTable {
     listings: Vec<Listing>,
 }
 
-/// What the list of candidates depends on.
+/// The inputs of a rebuild.
 #[derive(Clone, Copy)]
 pub(crate) struct Surroundings<'a> {
     pub(crate) particles: &'a Particles,
-    /// The rows that the particles had when contacts were last listed; of those that came since, rows behind these.
+    /// The row of each particle at the last rebuild; particles inserted since have rows beyond these.
     pub(crate) order: &'a [u32],
     /// The materials of all particles, each once.
     pub(crate) materials: &'a [MaterialIndex],
@@ -65,18 +65,18 @@ impl ContactTable {
         self.chunks.iter_mut().flat_map(|chunk| &mut chunk.groups)
     }
 
-    /// The runs of rows that threads take their work by.
+    /// All chunks.
     pub(crate) fn chunks(&self) -> &[Chunk] {
         &self.chunks
     }
 
-    /// Lets `store` remember what the contacts remember.
+    /// Copies the memory of all contacts into `store`.
     pub(crate) fn remember(&self, store: &mut MemoryStore, pool: &ThreadPool) {
         store.gather(&self.chunks, pool);
     }
 
-    /// Lists all candidates within reach and skin; contacts keep their `memory`. Answers with the number
-    /// of slots that the forces and torques need, those of the rows first.
+    /// Rebuilds the list: all pairs within interaction range and skins. Contacts get their `memory` back. Returns the
+    /// number of slots that forces and torques need: those of the rows, then those of the halos.
     pub(crate) fn rebuild(
         &mut self,
         around: &Surroundings<'_>,
@@ -100,8 +100,8 @@ impl ContactTable {
         self.link(self.row_count)
     }
 
-    /// Gives the halo of every chunk its sums, which stand behind those of all `rows`, and tells every
-    /// chunk whose halos it takes part in. Answers with the end of all sums.
+    /// Gives each halo row a slot, after the slots of all `rows`, and links each chunk with the chunks that it
+    /// contributes to. Returns the number of all slots.
     fn link(&mut self, rows: usize) -> usize {
         self.halos.clear();
         self.halo_starts.clear();
@@ -128,7 +128,9 @@ impl ContactTable {
         rows + self.halos.len()
     }
 
-    /// Takes in how far the rows of every chunk, and walls, have moved since the candidates were listed [m].
+    /// Bounds by how much gaps can have closed, from the displacements of the rows of every chunk and of walls since the
+    /// last rebuild [m]. The two bodies of a contact of a chunk are two of its rows, or one of its rows and one of a
+    /// chunk that it contributes to.
     pub(crate) fn close_gaps(&mut self, moved: impl Fn(usize) -> Moved, walls: f64) {
         for (number, chunk) in self.chunks.iter_mut().enumerate() {
             let own = moved(number);
@@ -140,8 +142,8 @@ impl ContactTable {
         }
     }
 
-    /// Computes the forces and torques of all contacts. When those on the rows of a chunk are complete, and nobody
-    /// uses these rows any more, `finish` is called with the number of the chunk, its rows and the forces and torques.
+    /// Computes the forces and torques of all contacts. `finish` is called with the number of a chunk, its rows and the
+    /// forces and torques on them, when these are complete and no thread uses the rows any more.
     pub(crate) fn sweep(
         &mut self,
         sweep: &Sweep<'_>,
@@ -169,7 +171,7 @@ impl ContactTable {
         });
     }
 
-    /// What is seen of all contacts, group by group: the same for any number of threads.
+    /// Sums over all contacts, group by group: the same for any number of threads.
     pub(crate) fn totals(&self) -> ContactTotals {
         let mut sum = ContactTotals::default();
         for group in self.groups() {
@@ -197,7 +199,7 @@ impl ContactTable {
         sum.sum_lanes()
     }
 
-    /// Adds the force and torque of every wall on the particles to its index in `forces`.
+    /// Adds the force and torque of every wall on the particles to its entry in `forces`.
     pub(crate) fn add_wall_forces(&self, forces: &mut [WallForce]) {
         for group in self.groups() {
             for (sum, &force) in forces.iter_mut().zip(&group.wall_forces) {
@@ -222,7 +224,7 @@ impl ContactTable {
         })
     }
 
-    /// Number of candidate contacts.
+    /// Number of neighbour pairs.
     pub(crate) fn candidates(&self) -> usize {
         self.groups().map(ContactGroup::len).sum()
     }

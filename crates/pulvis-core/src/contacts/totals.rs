@@ -1,4 +1,4 @@
-//! Sums over all contacts: what the loops add up when somebody looks.
+//! Sums over all contacts that the loops make for observation.
 
 use std::ops::AddAssign;
 
@@ -11,7 +11,7 @@ pub struct ContactTotals {
     pub pairs: f64,
     /// Touching contacts with walls [1].
     pub at_walls: f64,
-    /// The largest overlap; zero where nothing touches, NaN where one is [m].
+    /// The largest overlap; zero without contacts, NaN if any overlap is NaN [m].
     pub overlap_max: f64,
     /// Σ f_k l_m over all contacts, the one with walls among them, for the force f on the first body and the branch l
     /// from the second to the first: over the volume, the stress of the contacts, compression positive (Love-Weber)
@@ -33,7 +33,7 @@ impl AddAssign for ContactTotals {
     }
 }
 
-/// What the blocks of a group add up to, lane by lane.
+/// The sums over the blocks of a group, lane by lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GroupTotals<R> {
     touching: R,
@@ -41,7 +41,7 @@ pub(crate) struct GroupTotals<R> {
     virial: [Vector3<R>; 3],
 }
 
-// Not derived: what is derived is not inlined by force.
+// Not derived: derived implementations cannot be forced inline.
 impl<R: Real> Default for GroupTotals<R> {
     #[inline(always)]
     fn default() -> Self {
@@ -50,7 +50,7 @@ impl<R: Real> Default for GroupTotals<R> {
 }
 
 impl<R: Simd8> GroupTotals<R> {
-    /// Takes in eight contacts with the forces [N] on their first bodies, along branches of the given lengths [m].
+    /// Adds eight contacts with the forces [N] on their first bodies and the lengths of their branch vectors [m].
     #[inline(always)]
     pub(crate) fn add(&mut self, overlap: R, normal: Vector3<R>, length: R, force: Vector3<R>) {
         let touching = overlap.gt(R::zero());

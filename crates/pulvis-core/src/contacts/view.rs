@@ -1,4 +1,4 @@
-//! Contacts as others see them: one at a time, with forces, for output and analysis.
+//! Contacts one at a time, with forces, for output and analysis.
 
 use pulvis_contact::{ContactKinematics, MemoryLayout, Pair};
 use pulvis_math::Vector3;
@@ -35,7 +35,7 @@ pub struct ContactView<'a> {
     pub force: Vector3,
     /// Its part along the normal, repulsion positive [N].
     pub normal_force: f64,
-    /// What the contact remembers, column by column as `layout` names them.
+    /// Memory of the contact, column by column as `layout` names them.
     pub memory: &'a [f64],
     /// The names and units of its columns.
     pub layout: &'a MemoryLayout,
@@ -61,8 +61,8 @@ pub(crate) struct Views<'a> {
     pub(crate) walls: &'a [WallNow],
 }
 
-/// Hands every contact of a group that acts to `see`. The forces are computed anew from a copy of the
-/// memory, over a step of no duration, so that looking changes nothing.
+/// Calls `see` with every contact of a group that acts. The forces are computed again from a copy of the memory, over a
+/// step of zero duration, so that the contacts do not change.
 pub(crate) fn view_contacts(views: Views<'_>, see: &mut dyn FnMut(&ContactView<'_>)) {
     let group = views.group;
     let (mut memory, mut after) = (Vec::new(), Vec::new());
@@ -125,7 +125,7 @@ impl<'a> Views<'a> {
         })
     }
 
-    /// How the first body, in row `i`, lies and moves against the second one.
+    /// Position and motion of the first body, in row `i`, relative to the second one.
     fn geometry(&self, i: usize, block: usize, lane: usize) -> Option<Seen> {
         let particles = self.particles;
         let velocity = |row: usize| particles.velocity[row].vector;

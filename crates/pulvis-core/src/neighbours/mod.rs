@@ -1,4 +1,4 @@
-//! Neighbour search: cell order, candidate pairs, and when both are out of date.
+//! Neighbour search: cell order, pairs of neighbouring rows, and when the neighbour list is out of date.
 
 mod grid;
 mod moved;

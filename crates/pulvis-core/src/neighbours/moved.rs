@@ -1,36 +1,36 @@
-//! How far particles have moved.
+//! How far particles have moved since the last rebuild.
 
 use pulvis_math::{Kernel, Packed4, Real, Simd4, Simd8, Vector3};
 
-/// How far particles have moved since they were listed.
+/// Bounds of how far some particles have moved since the last rebuild.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Moved {
-    /// The longest and the second longest way of any particle [m]: no gap between two particles has closed by
-    /// more than their sum.
+    /// The largest and the second largest displacement of any particle [m]: no gap between two of the particles has
+    /// closed by more than their sum.
     pub(crate) longest: f64,
     pub(crate) second: f64,
-    /// What is left of the skin of whoever has least left of it [m].
+    /// The smallest remaining skin of any particle: its skin less its displacement [m].
     pub(crate) left: f64,
 }
 
 impl Default for Moved {
-    /// Of no particles.
+    /// For no particles.
     fn default() -> Self {
         Self { longest: 0.0, second: 0.0, left: f64::INFINITY }
     }
 }
 
 impl Moved {
-    /// Nowhere yet, in skins at least so thick [m].
+    /// For particles that have not moved, with skins of at least this thickness [m].
     pub(crate) fn nowhere(skin: f64) -> Self {
         Self { left: skin, ..Self::default() }
     }
 
-    /// Anywhere.
+    /// For particles that may be anywhere.
     pub(crate) const ANYWHERE: Self =
         Self { longest: f64::INFINITY, second: f64::INFINITY, left: f64::NEG_INFINITY };
 
-    /// Takes in the way of one more particle, with its skin [m].
+    /// Adds the displacement of one more particle, with its skin [m].
     #[inline(always)]
     fn take_in(&mut self, way: f64, skin: f64) {
         self.second = self.second.max(way.min(self.longest));
@@ -38,13 +38,14 @@ impl Moved {
         self.left = self.left.min(skin - way);
     }
 
-    /// At the most, when all have gone on by up to `way`.
+    /// The bounds after all particles have moved by up to `way` [m] more.
     pub(crate) fn farther(self, way: f64) -> Self {
         Self { longest: self.longest + way, second: self.second + way, left: self.left - way }
     }
 }
 
-/// Looks how far particles have moved that were listed with these radii and skins.
+/// Measures how far particles have moved, from their centres and radii now and their centres and radii with skins at the
+/// last rebuild.
 pub(super) struct Survey<'a> {
     pub(super) positions: &'a [Packed4],
     pub(super) listed: &'a [Packed4],
@@ -80,7 +81,7 @@ impl Kernel for Survey<'_> {
     }
 }
 
-/// The length of a way; infinite if it is no number.
+/// The length of a displacement; infinite if it is NaN.
 #[inline(always)]
 fn way_of<R: Real>(way: Vector3<R>) -> R {
     let way = way.norm();

@@ -1,4 +1,4 @@
-//! When the list of candidates is out of date.
+//! When the neighbour list is out of date.
 
 use std::ops::Range;
 
@@ -9,32 +9,32 @@ use crate::particles::Particles;
 use crate::thread_pool::ThreadPool;
 use crate::walls::{Shape, Wall};
 
-/// How far particles and walls may move before candidates are listed anew, and where they were when that was done.
+/// How far particles and walls may move before the neighbour list is rebuilt, and where they were at the last rebuild.
 ///
-/// Every particle has a skin of its own: two are candidates if their skins overlap, and the list holds as
-/// long as no particle has left its skin. A fast one has a thick skin, so that a few grains that fly about do
-/// not make all others be listed again and again.
+/// Every particle has a skin of its own. Two particles are neighbours if their skins overlap, and the list is valid as
+/// long as no particle has left its skin. Fast particles have thick skins, so that a few of them do not cause rebuilds for
+/// all.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Skin {
     /// The thickest and the thinnest skin of a particle [m].
     pub(crate) thickest: f64,
     pub(crate) thinnest: f64,
-    /// Centres when the candidates were listed [m], and radii with skins [m].
+    /// Centres at the last rebuild [m], and radii with skins [m].
     pub(crate) positions: Vec<Packed4>,
-    /// Reference points of the walls then [m].
+    /// Reference points of the walls at the last rebuild [m].
     pub(crate) walls: Vec<Vector3>,
-    /// Steps since the list was made.
+    /// Steps since the last rebuild.
     pub(crate) steps: u64,
 }
 
-/// Steps that a list should last: a skin is as thick as what its particle moves in so many. The engine
-/// spends some eight steps' time on a list.
+/// Steps that a list should last: a skin is as thick as the distance that its particle moves in that many steps. A rebuild
+/// takes the time of some eight steps.
 const LIFE: u64 = 250;
 /// The thinnest skin, over the thickest one, lies between these.
 const THINNEST: Range<f64> = 0.1..0.5;
 
-/// Steps after which it is looked at how far particles have really moved. In between, the highest speed says
-/// how far at the most: that costs no look at where they were, which is far from any cache.
+/// Steps between two measurements of displacements. In between, the maximum speed bounds them: this avoids loading the
+/// listed positions, which are not in any cache.
 const SURVEY: u64 = 8;
 
 impl Skin {
@@ -43,7 +43,7 @@ impl Skin {
         (self.thickest, self.thinnest) = (thickness, thickness);
     }
 
-    /// Sets the thickest skin of a particle [m], and the others' as they are best to begin with.
+    /// Sets the thickest skin of a particle [m], and the thinnest one to its smallest value.
     pub(crate) fn set_thickest(&mut self, thickness: f64) {
         (self.thickest, self.thinnest) = (thickness, THINNEST.start * thickness);
     }
@@ -58,8 +58,8 @@ impl Skin {
         (self.thickest, self.thinnest) = (thickest, thinnest);
     }
 
-    /// Makes the thinnest skin thicker where those that have it have come near its end, or thinner where they stayed
-    /// far from that: where particles are now tells.
+    /// Adapts the thinnest skin at a rebuild: halved if the slow particles moved no farther than their speed predicted,
+    /// doubled if they moved more than twice as far.
     pub(crate) fn adapt(&mut self, positions: &[Packed4], pool: &ThreadPool) {
         let (listed, thinnest) = (&self.positions, self.thinnest);
         if thinnest == self.thickest {
@@ -72,7 +72,7 @@ impl Skin {
             };
             positions[rows.clone()].iter().zip(&listed[rows]).map(way).fold(0.0, max_or_nan)
         });
-        // Over what the speeds that particles had when they were listed account for.
+        // The largest displacement over the one that the speeds at the last rebuild predicted.
         let used = longest.sqrt() / thinnest * LIFE as f64 / self.steps.max(1) as f64;
         if used > 2.0 {
             self.thinnest = (2.0 * thinnest).min(THINNEST.end * self.thickest);
@@ -81,31 +81,31 @@ impl Skin {
         }
     }
 
-    /// Gives all particles their skins; they have moved nowhere since. `time_step` in s.
+    /// Gives all particles new skins at their present positions. `time_step` in s.
     pub(crate) fn renew(&mut self, particles: &Particles, time_step: f64, pool: &ThreadPool) {
         let time = LIFE as f64 * time_step;
         let (thinnest, thickest) = (self.thinnest, self.thickest);
         pool.fill(&mut self.positions, particles.len(), |row| {
             let Packed4 { vector, scalar } = particles.position[row];
-            // What is no number gives way to the others.
+            // A NaN speed gives the thinnest skin.
             let way = particles.velocity[row].vector.norm() * time;
             Packed4::new(vector, scalar + way.max(thinnest).min(thickest))
         });
         self.steps = 0;
     }
 
-    /// Takes in where walls are.
+    /// Stores the positions of the walls.
     pub(crate) fn renew_walls(&mut self, walls: &[Wall]) {
         self.walls.clear();
         self.walls.extend(walls.iter().map(|wall| wall.point));
     }
 
-    /// The particles are in a new order: row k is what was row `order[k]`.
+    /// Follows a new order of the particles: row k is what was row `order[k]`.
     pub(crate) fn reorder(&mut self, order: &[u32], pool: &ThreadPool) {
         pool.reorder(&mut self.positions, order, &mut Vec::new());
     }
 
-    /// Centres when the candidates were listed [m], and radii with skins [m].
+    /// Centres at the last rebuild [m], and radii with skins [m].
     pub(crate) fn positions(&self) -> &[Packed4] {
         &self.positions
     }
@@ -115,13 +115,13 @@ impl Skin {
         0.5 * self.thickest
     }
 
-    /// Counts a step. Answers whether a survey is due.
+    /// Counts a step. Returns whether displacements are to be measured in it.
     pub(crate) fn count_step(&mut self) -> bool {
         self.steps += 1;
         self.steps.is_multiple_of(SURVEY)
     }
 
-    /// How far the particles of some rows, now at `positions`, have moved since the list was made.
+    /// How far the particles of some rows, now at `positions`, have moved since the last rebuild.
     pub(crate) fn moved(
         &self,
         rows: Range<usize>,
@@ -131,15 +131,16 @@ impl Skin {
         instructions.run(Survey { positions: &positions[rows.clone()], listed: &self.positions[rows] })
     }
 
-    /// By how much any wall can have come nearer to anything since the list was made [m]. What rotates about its
-    /// axis of symmetry comes no nearer. NaN if a wall stands nowhere.
+    /// Upper bound of how much nearer any wall has come to a particle since the last rebuild [m]. A rotation about the axis
+    /// of symmetry brings a wall no nearer. NaN if a
+    /// wall stands nowhere.
     pub(crate) fn moved_walls(&self, walls: &[Wall]) -> f64 {
         let approach = |(now, before): (&Wall, &Vector3)| now.shape.approach(now.point - *before);
         walls.iter().zip(&self.walls).map(approach).fold(0.0, max_or_nan)
     }
 
-    /// Whether the list still holds, when so much is `left` of any particle's skin [m] and walls have moved
-    /// by up to `walls` [m]: what has left its skin may meet what is not on the list.
+    /// Whether the list is still valid, with the smallest remaining skin `left` [m] and walls that have moved by up to
+    /// `walls` [m]. A body that has left its skin may meet one that is not its neighbour in the list.
     pub(crate) fn holds(&self, left: f64, walls: f64) -> bool {
         left >= 0.0 && walls <= self.of_walls()
     }

@@ -1,4 +1,4 @@
-//! Particles that come and go between steps.
+//! Insertion and removal of particles between steps.
 
 use pulvis_boundary::Region;
 
@@ -7,16 +7,16 @@ use crate::columns::NamedColumn;
 use crate::particles::{Particle, ParticleId};
 use crate::{Particles, SetupError};
 
-/// Insertion and removal. Both renew the neighbour list. Contacts of the particles that stay keep their memory.
-/// The ledger books what the system stores more or less afterwards as inflow or outflow: kinetic energy, potential
-/// energy, and what the contacts of these particles store.
+/// Insertion and removal. Both rebuild the neighbour list. Contacts of the remaining particles keep their memory. The ledger
+/// books the change of the stored energy as inflow or outflow: kinetic energy, potential energy, and the energy stored in the
+/// contacts of these particles.
 impl Simulation {
-    /// Inserts particles and answers with their ids, in the given order. Ids count on from the last one ever given:
-    /// none is given twice.
+    /// Inserts particles and returns their ids, in the given order. Ids continue from the last id ever used: none is used
+    /// twice.
     ///
     /// # Errors
     /// What [`new`](Self::new) refuses, more particles than there are ids left, and particles without values where
-    /// there are [columns](Self::set_column). Nothing has changed then.
+    /// there are [columns](Self::set_column). The simulation is unchanged then.
     pub fn insert(&mut self, particles: &[Particle]) -> Result<Vec<ParticleId>, SetupError> {
         self.insert_with(particles, &[])
     }
@@ -45,7 +45,7 @@ impl Simulation {
             return Err(SetupError::IdsUsedUp { inserted, next, most });
         }
         let (skin, mean_radius) = (self.skin.sizes(), self.mean_radius);
-        // The ledger is drawn up before there are rows without forces.
+        // The ledger is taken before there are rows without forces.
         let closing_error = self.ledger().closing_error();
         let ids = self.particles.append(particles);
         for column in &mut self.particles.columns {
@@ -62,17 +62,17 @@ impl Simulation {
             self.mean_radius = mean_radius;
             return Err(error);
         }
-        // Rows behind those of then stand for particles without memory.
+        // Rows beyond the former ones stand for particles without memory.
         let former: Vec<u32> = (0..self.particles.len() as u32).collect();
         self.renew_after_exchange(&former);
         self.running.inflow += self.ledger().closing_error() - closing_error;
         Ok(ids.collect())
     }
 
-    /// Removes the particles of these ids; an id may stand there twice.
+    /// Removes the particles with these ids; an id may be given twice.
     ///
     /// # Errors
-    /// There is no particle of one of the ids. Nothing has changed then.
+    /// There is no particle with one of the ids. The simulation is unchanged then.
     pub fn remove(&mut self, ids: &[ParticleId]) -> Result<(), SetupError> {
         let mut wanted = ids.to_vec();
         wanted.sort_unstable();
@@ -97,8 +97,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Removes the particles that `is_removed` picks, given all particles and a row, and answers with their ids in
-    /// ascending order.
+    /// Removes the particles for which `is_removed` is true, given all particles and a row. Returns their ids in ascending
+    /// order.
     pub fn remove_where(&mut self, mut is_removed: impl FnMut(&Particles, usize) -> bool) -> Vec<ParticleId> {
         let particles = &self.particles;
         let stays: Vec<bool> = (0..particles.len()).map(|row| !is_removed(particles, row)).collect();
@@ -109,14 +109,14 @@ impl Simulation {
         ids
     }
 
-    /// Removes the particles whose centres lie in a region, and answers with their ids in ascending order. Along
-    /// periodic directions, any image of a centre counts.
+    /// Removes the particles whose centres lie in a region. Along periodic directions, any image of a centre counts. Returns
+    /// their ids in ascending order.
     pub fn remove_within(&mut self, region: &Region) -> Vec<ParticleId> {
         let domain = self.domain;
         self.remove_where(|particles, row| region.contains(particles.positions()[row], &domain))
     }
 
-    /// Removes the rows that do not stay.
+    /// Removes the rows for which `stays` is false.
     fn keep(&mut self, stays: &[bool]) {
         let rows = (0..self.particles.len() as u32).zip(stays);
         let former: Vec<u32> = rows.filter(|(_, stays)| **stays).map(|(row, _)| row).collect();
@@ -130,14 +130,14 @@ impl Simulation {
         self.running.outflow -= self.ledger().closing_error() - closing_error;
     }
 
-    /// Works out again what follows from which particles there are.
+    /// Updates everything that depends on the set of particles.
     fn take_in_particles(&mut self) {
         self.list_materials();
         self.fit_skin();
     }
 
-    /// Renews the neighbour list after particles have come or gone, and computes the forces anew. `former` gives the
-    /// row that each particle had when contacts were last listed; of new ones, rows behind these.
+    /// Rebuilds the neighbour list after an insertion or removal, and computes the forces again. `former` holds the row of each
+    /// particle at the last rebuild; new particles have rows beyond these.
     fn renew_after_exchange(&mut self, former: &[u32]) {
         self.phases = self.phases();
         self.contacts.remember(&mut self.memory, &self.pool);
@@ -147,7 +147,7 @@ impl Simulation {
             self.rebuild(None);
         }
         self.rebuilds += 1;
-        // Contacts that come with an overlap have lost what they lost before.
+        // Energy that inserted contacts dissipated before is not booked.
         let losses = self.running.contacts;
         self.evaluate_at_rest();
         self.running.set_losses(&losses);

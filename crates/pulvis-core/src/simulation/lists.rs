@@ -1,4 +1,4 @@
-//! Lists of candidates: when and how they are made anew.
+//! Rebuilds of the neighbour list.
 
 use super::{Outcome, Simulation};
 use crate::contacts::Surroundings;
@@ -7,13 +7,13 @@ use crate::particles::ForceTorque;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
 
-/// The thickest skin of a particle over the mean radius, in a packing and in a gas. Lists with thicker skins are
-/// renewed less often but hold more candidates that do not touch; a gas has few.
+/// The thickest skin of a particle over the mean radius, in a packing and in a gas. Lists with thicker skins are rebuilt less
+/// often but contain more pairs that do not touch; a gas has few pairs.
 const SKIN_IN_PACKING: f64 = 0.3;
 const SKIN_IN_GAS: f64 = 0.8;
-/// The skin where periods leave no room for a better one.
+/// The skin if periods are too short for a thicker one.
 const SKIN_IN_SHORT_PERIODS: f64 = 0.1;
-/// Candidates per particle below which the one is taken for a gas, and above which it is for a packing.
+/// Neighbour pairs per particle below which a system counts as a gas, and above which it counts as a packing.
 const GAS: f64 = 1.5;
 const PACKING: f64 = 3.0;
 
@@ -23,8 +23,7 @@ impl Simulation {
         self.mean_radius = self.particles.radius.iter().sum::<f64>() / count;
     }
 
-    /// The skin after particles have come or gone: it keeps its thickness over the mean radius, as far as periods
-    /// allow.
+    /// Sets the skin after an insertion or removal: its ratio to the mean radius stays, as far as periods allow.
     pub(super) fn fit_skin(&mut self) {
         let (before, [thickest, thinnest]) = (self.mean_radius, self.skin.sizes());
         self.take_mean_radius();
@@ -42,13 +41,13 @@ impl Simulation {
         if self.check_periods().is_err() {
             self.choose_first_skin();
         }
-        // Small particles that leave make the mean radius grow, and with it the skin.
+        // The removal of small particles increases the mean radius, and with it the skin.
         if self.check_periods().is_err() {
             self.skin.set_sizes([thickest, thinnest]);
         }
     }
 
-    /// The skin to begin with, as far as periods allow.
+    /// Sets the first skin, as far as periods allow.
     pub(super) fn choose_first_skin(&mut self) {
         self.take_mean_radius();
         self.skin.set_thickest(SKIN_IN_PACKING * self.mean_radius);
@@ -69,8 +68,8 @@ impl Simulation {
         }
     }
 
-    /// Takes the skin that suits the number of candidates in the present list, as far as periods allow.
-    /// Answers whether it is another one.
+    /// Sets the skin that suits the number of neighbour pairs in the present list, as far as periods allow. Returns whether
+    /// it has changed.
     pub(super) fn choose_skin(&mut self) -> bool {
         if !self.chooses_skin {
             return false;
@@ -102,12 +101,12 @@ impl Simulation {
         let masses = &self.particles.mass;
         let positions = Shared::new(&mut self.particles.position);
         let [fallen] = self.pool.sum_over(masses.len(), |rows| {
-            // SAFETY: stretches have different rows.
+            // SAFETY: the ranges have no common rows.
             let positions = unsafe { positions.range_mut(rows.clone()) };
             let mut fallen = 0.0;
             for (position, mass) in positions.iter_mut().zip(&masses[rows]) {
                 let wrapped = domain.wrapped(position.vector);
-                // Falling through a periodic boundary is falling on: the potential must not jump.
+                // A particle that falls through a periodic boundary falls on: its potential must not jump.
                 fallen += mass * gravity.dot(wrapped - position.vector);
                 position.vector = wrapped;
             }
@@ -116,8 +115,8 @@ impl Simulation {
         self.running.gravity_wrapped += fallen;
     }
 
-    /// Puts the particles into cell order and lists all candidates within reach and skin. Where particles have come
-    /// or gone since contacts were last listed, `former` gives the row of then for each row of now.
+    /// Puts the particles into cell order and lists all pairs within interaction range and skins. If particles were inserted
+    /// or removed since the last rebuild, `former` holds the row at that time for each present row.
     pub(super) fn rebuild(&mut self, former: Option<&[u32]>) {
         self.wrap();
         self.skin.renew(&self.particles, self.time_step, &self.pool);
@@ -128,19 +127,19 @@ impl Simulation {
         self.skin.reorder(&order, &self.pool);
         match former {
             Some(former) => {
-                let rows_of_then: Vec<u32> = order.iter().map(|&row| former[row as usize]).collect();
-                self.list_candidates(&grid, &rows_of_then);
+                let former_rows: Vec<u32> = order.iter().map(|&row| former[row as usize]).collect();
+                self.list_candidates(&grid, &former_rows);
             }
             None => self.list_candidates(&grid, &order),
         }
         self.former_rows = order;
     }
 
-    /// Lists the candidates among particles in cell order, which had `rows_of_then` when they were last listed.
-    pub(super) fn list_candidates(&mut self, grid: &CellGrid, rows_of_then: &[u32]) {
+    /// Lists the neighbour pairs of particles in cell order. `former_rows` are their rows at the last rebuild.
+    pub(super) fn list_candidates(&mut self, grid: &CellGrid, former_rows: &[u32]) {
         let around = Surroundings {
             particles: &self.particles,
-            order: rows_of_then,
+            order: former_rows,
             materials: &self.materials,
             interactions: &self.interactions,
             walls: &self.walls,

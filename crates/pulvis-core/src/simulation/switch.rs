@@ -1,4 +1,4 @@
-//! What can be changed while a simulation runs.
+//! Changes between steps: laws, walls, time step, threads.
 
 use pulvis_math::InstructionSet;
 
@@ -9,10 +9,10 @@ use crate::thread_pool::ThreadPool;
 use crate::walls::WallMotion;
 use pulvis_boundary::Background;
 
-/// Switching between stages. Every switch keeps the ledger: what the system holds more or less
-/// afterwards is booked as switched.
+/// Switching between stages. Every switch keeps the balance of the ledger: the change of the stored energy is booked as
+/// `switched`.
 impl Simulation {
-    /// Sets other contact models; contacts keep what both the old and the new law remember.
+    /// Sets other contact models; contacts keep the columns of memory that both the old and the new law have.
     pub fn set_interactions(&mut self, interactions: Interactions) -> Result<(), SetupError> {
         let before = std::mem::replace(&mut self.interactions, interactions);
         self.fit_interactions();
@@ -39,20 +39,19 @@ impl Simulation {
         self.instructions = instructions;
     }
 
-    /// Has all normal laws called through pointers, also those that have loops of their own: for measurements. The
-    /// results are the same.
+    /// Calls all normal laws through pointers, also those that have loops of their own. For measurements; the results are the
+    /// same.
     pub fn set_law_pointers(&mut self, pointers: bool) {
         self.pointers = pointers;
     }
 
-    /// From now on takes the times of the parts of a step: see [`phases`](Self::phases).
+    /// Measures the time of the parts of each step from now on: see [`phases`](Self::phases).
     pub fn watch_phases(&mut self) {
         self.phases = Some(Phases::default());
     }
 
-    /// Gives the energy ledger up, for good: contacts are faster without it. The accounts of contacts and
-    /// what follows from them are no numbers from now on; kinetic energy and the potential of gravity
-    /// stay.
+    /// Disables the energy ledger for the rest of the simulation, which makes contacts faster. The accounts of contacts and
+    /// all sums with them are NaN from now on; kinetic energy and the potential of gravity remain.
     pub fn disable_ledger(&mut self) {
         self.accounting = false;
     }
@@ -74,10 +73,10 @@ impl Simulation {
         Ok(())
     }
 
-    /// Lets a wall move in another way from now on.
+    /// Sets another motion of a wall.
     ///
     /// # Errors
-    /// A wall of this shape cannot move so.
+    /// A wall of this shape cannot have this motion.
     pub fn set_wall_motion(&mut self, index: usize, motion: WallMotion) -> Result<(), SetupError> {
         self.check_motion(index, &motion)?;
         // Dashpots see the wall's new velocity at once.
@@ -89,8 +88,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Takes a wall away, or puts it back where it stood, its motion beginning anew. A wall that is
-    /// away does not move.
+    /// Removes a wall, or puts it back where it was and starts its motion again. A removed wall does not move.
     pub fn set_wall_present(&mut self, index: usize, present: bool) {
         self.switch(|simulation| {
             if present && !simulation.walls[index].present {
@@ -104,9 +102,9 @@ impl Simulation {
         });
     }
 
-    /// Sets how far beyond their reach candidates are listed [m], the same for all; by default this
-    /// depends on how fast both particles are. Thicker lists are renewed less often but hold more
-    /// candidates that do not touch. A skin must be thicker than what any particle moves in a step.
+    /// Sets one skin for all particles [m]; by default each particle has a skin that depends on its speed. With a thicker skin
+    /// the neighbour list is rebuilt less often but contains more pairs that do not touch. The skin must be larger than the
+    /// displacement of any particle in a step.
     pub fn set_skin(&mut self, thickness: f64) -> Result<(), SetupError> {
         // What is no number counts as no skin.
         let before = self.skin.clone();

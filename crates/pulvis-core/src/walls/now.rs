@@ -1,4 +1,4 @@
-//! What the contact loop reads of a wall, and what it answers.
+//! What the contact loop reads of a wall, and the forces that it returns.
 
 use std::ops::{AddAssign, Neg};
 
@@ -37,7 +37,7 @@ impl WallNow {
         Self { shape: wall.shape, point: wall.point, velocity_mid, velocity, turn }
     }
 
-    /// How the surface lies to `centre` [m].
+    /// The surface as seen from `centre` [m].
     #[inline(always)]
     pub(crate) fn surface<R: Real>(&self, centre: Vector3<R>) -> Surface<R> {
         self.shape.surface(self.point, centre)

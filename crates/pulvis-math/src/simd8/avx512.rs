@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
 use super::avx2::Ymm;
-use super::operators::{lane_by_lane, octet_operators};
+use super::operators::{lane_by_lane, simd8_operators};
 use super::{Kernel, Packed4, Pointer, Routine, Simd4Pair, Simd8, Task};
 use crate::array::F64Array;
 use crate::real::{Mask, Real};
@@ -34,7 +34,7 @@ pub(super) struct Bits(__mmask8);
 // SAFETY of all blocks below: values of these types exist only within a kernel that `run` has been
 // called for, so the processor has the instructions.
 
-octet_operators!(Zmm, Bits);
+simd8_operators!(Zmm, Bits);
 
 impl Zmm {
     #[inline(always)]

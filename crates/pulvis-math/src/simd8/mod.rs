@@ -1,4 +1,4 @@
-//! Eight numbers in the registers of one instruction set, and the way from and to rows in memory.
+//! Eight numbers in the registers of one instruction set, with loads and stores of rows in memory.
 //!
 //! The loops of the engine are written once, as a [`Kernel`] over any [`Simd8`], and compiled for
 //! every instruction set; which one runs is chosen while the program runs. The vector types cannot be
@@ -21,7 +21,7 @@ use crate::array::F64Array;
 use crate::real::Real;
 use crate::vector::Vector3;
 
-/// A vector and one more number: 32 bytes, which one load brings.
+/// A vector and one more number: 32 bytes, which one load instruction reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C, align(32))]
 pub struct Packed4 {
@@ -41,9 +41,9 @@ impl Packed4 {
 
 /// The four numbers of a [`Packed4`] in a register.
 pub trait Simd4: Copy {
-    /// The packed vector in memory.
+    /// Loads a packed vector from memory.
     fn load(packed: &Packed4) -> Self;
-    /// Into memory.
+    /// Stores into memory.
     fn store(self, packed: &mut Packed4);
     /// Four equal numbers.
     fn splat(value: f64) -> Self;
@@ -57,11 +57,11 @@ pub trait Simd4: Copy {
     fn with_scalar_of(self, other: Self) -> Self;
 }
 
-/// Two [`Packed4`]s that stand side by side, in registers.
+/// Two adjacent [`Packed4`]s in registers.
 pub trait Simd4Pair: Copy {
-    /// The packed vector in memory.
+    /// Loads both packed vectors from memory.
     fn load(packed: &[Packed4; 2]) -> Self;
-    /// Into memory.
+    /// Stores into memory.
     fn store(self, packed: &mut [Packed4; 2]);
     /// Sum, number by number.
     fn plus(self, other: Self) -> Self;
@@ -89,7 +89,7 @@ impl<R: Simd4> Simd4Pair for [R; 2] {
     }
 }
 
-/// The row_pairs of eight rows and of eight others.
+/// The pairs of eight rows and of eight others.
 #[inline(always)]
 fn side_by_side<R: Simd4>(a: [R; 8], b: [R; 8]) -> [[R; 2]; 8] {
     [
@@ -104,17 +104,17 @@ fn side_by_side<R: Simd4>(a: [R; 8], b: [R; 8]) -> [[R; 2]; 8] {
     ]
 }
 
-/// Eight numbers at a time, one a lane.
+/// Eight numbers, one per lane.
 pub trait Simd8: Real {
     /// Four numbers at a time.
     type Simd4: Simd4;
     /// Two rows at a time.
     type Simd4Pair: Simd4Pair;
-    /// Eight numbers in memory.
+    /// Loads eight numbers from memory.
     fn load(source: &F64Array<8>) -> Self;
-    /// Into memory.
+    /// Stores into memory.
     fn store(self, target: &mut F64Array<8>);
-    /// In memory.
+    /// The eight numbers as an array.
     #[inline(always)]
     fn to_array(self) -> F64Array<8> {
         let mut lanes = F64Array::default();
@@ -123,8 +123,7 @@ pub trait Simd8: Real {
     }
     /// The columns of eight rows: x, y, z and the scalar of each.
     fn columns(rows: [Self::Simd4; 8]) -> [Self; 4];
-    /// The columns of two times eight rows against each other: the differences of x, y and z, and the sum
-    /// of the scalars.
+    /// The columns of eight pairs of rows: the differences of x, y and z, and the sums of the scalars.
     #[inline(always)]
     fn apart(ones: [Self::Simd4; 8], others: [Self::Simd4; 8]) -> [Self; 4] {
         let ([x, y, z, scalar], other) = (Self::columns(ones), Self::columns(others));
@@ -132,7 +131,7 @@ pub trait Simd8: Real {
     }
     /// The rows of four columns.
     fn rows(columns: [Self; 4]) -> [Self::Simd4; 8];
-    /// The rows of two times four columns, side by side.
+    /// The rows of two times four columns; two rows with the same lane are adjacent.
     fn row_pairs(first: [Self; 4], second: [Self; 4]) -> [Self::Simd4Pair; 8];
     /// A routine compiled for the instruction set of this type.
     fn pointer<T: Task, P: Routine<T>>() -> Pointer<T, Self>;
@@ -144,8 +143,8 @@ pub trait Task: 'static {
     type Data<'a, R: Simd8>;
 }
 
-/// A function that is compiled for every instruction set and called through a [`Pointer`]: what would otherwise be
-/// compiled into every [`Kernel`] that may need it is compiled once.
+/// A function that is compiled once for every instruction set and called through a [`Pointer`], in place of being compiled
+/// into every [`Kernel`] that may need it.
 pub trait Routine<T: Task> {
     /// The function. As [`Kernel::run`], it and everything that it calls with values of type `R` must be
     /// `#[inline(always)]`.
@@ -175,10 +174,10 @@ impl<T: Task, R: Simd8> Pointer<T, R> {
 
 /// A loop that is compiled for every instruction set.
 pub trait Kernel {
-    /// What it answers.
+    /// Its result.
     type Output;
     /// The loop. Implementations must be `#[inline(always)]`, and so must everything that they call
-    /// with values of type `R`: what is not inlined is compiled without the vector instructions.
+    /// with values of type `R`: code that is not inlined is compiled without the vector instructions.
     fn run<R: Simd8>(self) -> Self::Output;
 }
 
@@ -197,7 +196,7 @@ enum Level {
 pub struct InstructionSet(Level);
 
 impl InstructionSet {
-    /// Everything that this processor can run, from the plainest to the widest.
+    /// All instruction sets that this processor can run, from the narrowest to the widest.
     pub fn available() -> Vec<Self> {
         #[allow(unused_mut)] // elsewhere than on x86-64
         let mut found = vec![Self(Level::Plain)];
@@ -266,7 +265,7 @@ impl fmt::Display for InstructionSet {
     }
 }
 
-/// Plain Rust: what processors without a file of their own run, and what the others are tested against.
+/// Plain Rust: used by processors without a file of their own, and as the reference in tests of the others.
 #[cfg(any(test, not(target_arch = "x86_64")))]
 #[inline(never)]
 fn run_plain<K: Kernel>(kernel: K) -> K::Output {
@@ -335,7 +334,7 @@ mod tests {
                 stored.0.map(f64::to_bits)
             };
             let mut all = answers.map(bits).to_vec();
-            // Loads that are added up: to some, and from others.
+            // Forces and torques that are added to the sums of one body and subtracted from those of the other.
             let mut sums = [Packed4::new(Vector3::new(0.1, 0.2, 0.3), 0.4); 2];
             for twin in R::row_pairs([x, y, x + y, x * y], [y, x * y, x, x + y]) {
                 for sum in [R::Simd4Pair::load(&sums).plus(twin), R::Simd4Pair::load(&sums).minus_plus(twin)]

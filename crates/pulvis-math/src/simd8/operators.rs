@@ -1,7 +1,7 @@
-//! What both x86-64 types have in common.
+//! Operators and functions that all x86-64 types share.
 
-/// The operators of a vector type from its functions, and what goes through memory.
-macro_rules! octet_operators {
+/// Implements the operators of a vector type by its functions, and the functions that work lane by lane in memory.
+macro_rules! simd8_operators {
     ($simd8:ident, $mask:ident) => {
         impl Add for $simd8 {
             type Output = Self;
@@ -98,7 +98,7 @@ macro_rules! octet_operators {
     };
 }
 
-/// The functions of [`Real`](crate::Real) that go through memory.
+/// The functions of [`Real`](crate::Real) that work lane by lane in memory.
 macro_rules! lane_by_lane {
     () => {
         #[inline(always)]
@@ -122,4 +122,4 @@ macro_rules! lane_by_lane {
     };
 }
 
-pub(super) use {lane_by_lane, octet_operators};
+pub(super) use {lane_by_lane, simd8_operators};

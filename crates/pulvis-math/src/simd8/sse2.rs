@@ -4,7 +4,7 @@ use std::arch::x86_64::*;
 use std::fmt;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
-use super::operators::{lane_by_lane, octet_operators};
+use super::operators::{lane_by_lane, simd8_operators};
 use super::{Kernel, Packed4, Pointer, Routine, Simd4, Simd8, Task, side_by_side};
 use crate::array::F64Array;
 use crate::real::{Mask, Real};
@@ -73,7 +73,7 @@ impl Simd4 for Xmm2 {
     }
 }
 
-octet_operators!(Xmm4, Mask4);
+simd8_operators!(Xmm4, Mask4);
 
 /// One instruction on all quarters.
 macro_rules! quarters {

@@ -1,4 +1,4 @@
-//! Blocks on their way through the loops: gathered, computed, added up.
+//! A batch of blocks in the contact loop: gathered, computed, added up.
 
 use pulvis_contact::{
     Columns, ContactEnergies, ContactInputs, ContactKinematics, ContactLaws, MemorySlots, Pair, levels,
@@ -11,9 +11,9 @@ use super::normal::NormalCall;
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
 
-/// Blocks that are gathered before any of them is computed, and computed before any of them is added
-/// up. A block takes more instructions than a processor looks ahead; short loops one after the other
-/// let it work on several blocks at a time, and need fewer registers.
+/// Blocks per batch: all are gathered, then all computed, then all added up. One block has more instructions than a
+/// processor looks ahead. Short loops one after the other let it work on several blocks at a time, and need fewer
+/// registers.
 pub(super) const BATCH: usize = 2;
 
 /// Eight contacts at a time.
@@ -61,30 +61,30 @@ pub(super) struct ContactResponses<R> {
     pub(super) torque_j: Vector3<R>,
 }
 
-/// What the blocks of a group are computed with.
+/// The inputs of computing the blocks of a group.
 pub(super) struct Response<C> {
     pub(super) call: C,
     pub(super) laws: ContactLaws,
     pub(super) slots: MemorySlots,
     /// The step that led to the present positions [s].
     pub(super) time_step: f64,
-    /// Whether anything can be lost along the normal.
+    /// Whether energy can be dissipated along the normal.
     pub(super) with_memory: bool,
     /// Whether energies are summed up.
     pub(super) ledger: bool,
-    /// Whether what contacts store is asked for, beside what they lose.
+    /// Whether stored energies are summed, beside dissipated ones.
     pub(super) stored: bool,
-    /// Whether somebody looks at the contacts.
+    /// Whether sums for observation are made.
     pub(super) observed: bool,
 }
 
-/// What the blocks of a group add up to.
+/// The sums over the blocks of a group.
 #[derive(Clone, Copy)]
 pub(super) struct BlockSums<R> {
     pub(super) energies: ContactEnergies<R>,
-    /// What is seen of the contacts, where somebody looks.
+    /// Sums for observation.
     pub(super) totals: GroupTotals<R>,
-    /// The largest k/m_r of the contacts [1/s²], where it is watched.
+    /// The largest k/m_r of the contacts [1/s²], where it is monitored.
     pub(super) rate_squared: R,
 }
 
@@ -117,7 +117,7 @@ macro_rules! add_forces {
     };
 }
 
-/// Some blocks.
+/// Up to [`BATCH`] blocks.
 pub(super) struct Batch<R> {
     blocks: [GatheredBlock<R>; BATCH],
     responses: [ContactResponses<R>; BATCH],
@@ -153,8 +153,8 @@ impl<R: Simd8> Batch<R> {
         self.count == BATCH
     }
 
-    /// Room for one more block. What nobody fills in of any block stays zero: what a contact has no use for
-    /// is not written again and again.
+    /// Room for one more block. Fields that are never written stay zero, so that values that a contact does not use need not
+    /// be written for each block.
     #[inline(always)]
     pub(super) fn add(&mut self) -> &mut GatheredBlock<R> {
         self.count += 1;
@@ -199,7 +199,7 @@ impl<R: Simd8> Batch<R> {
             }
             if LEDGER && response.ledger {
                 totals.energies.add_dissipated::<RESISTANCE>(&answer.energies, response.with_memory);
-                // What is stored is not even computed where nobody asks for it.
+                // The compiler moves the computation of stored energies into this branch.
                 if response.stored {
                     totals.energies.add_stored(&answer.energies);
                 }

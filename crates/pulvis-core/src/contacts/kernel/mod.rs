@@ -32,7 +32,7 @@ pub(crate) struct KinematicColumns<'a> {
 }
 
 impl KinematicColumns<'_> {
-    /// Has a row brought near, but for predicted angular velocities, which few contacts look at.
+    /// Prefetches a row, except the predicted angular velocity, which few contacts use.
     #[inline(always)]
     fn prefetch(&self, row: usize) {
         self.position.prefetch(row);
@@ -42,23 +42,23 @@ impl KinematicColumns<'_> {
     }
 }
 
-/// Over which step bodies have moved, and how the loop is to run.
+/// The step that bodies have moved over, and options of the loop.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Advance {
     /// The step that led to the present positions [s].
     pub(crate) time_step: f64,
     /// The nearest-image rule.
     pub(crate) images: Images,
-    /// Whether times are taken.
+    /// Whether the time of each part is measured.
     pub(crate) timed: bool,
     /// Whether energies are summed up.
     pub(crate) ledger: bool,
-    /// Whether the energies that contacts hold are among them. What they lose has to be summed up in every step;
-    /// what they hold is asked for at some times only.
+    /// Whether stored energies are summed too. Dissipated energies must be summed in every step, stored energies only
+    /// when they are asked for.
     pub(crate) stored: bool,
-    /// What the processor can do.
+    /// The instruction set that loops use.
     pub(crate) instructions: InstructionSet,
-    /// Whether all laws are called through pointers, those of common contacts too.
+    /// Whether laws of common contacts are called through pointers too.
     pub(crate) pointers: bool,
 }
 
@@ -89,18 +89,18 @@ pub(crate) unsafe fn sweep(
     }
 }
 
-/// What the blocks of a group are computed with.
+/// The inputs of the blocks of a group.
 #[inline(always)]
 fn response<C>(call: C, group: &ContactGroup, advance: &Advance, ledger: bool) -> Response<C> {
     let (laws, slots) = (group.model.laws, *group.layout.slots());
     let with_memory = laws.remembers_normal_motion(&slots);
     let Advance { time_step, stored, .. } = *advance;
-    // Both are asked for at the end of an advance.
+    // Both are needed at the end of an advance only.
     let observed = stored;
     Response { call, laws, slots, time_step, with_memory, ledger, stored, observed }
 }
 
-/// Which answers of a normal law the loop over a group looks at.
+/// Which parts of a normal law's response the loop over a group uses.
 fn wants(group: &ContactGroup, advance: &Advance) -> Wants {
     let (laws, normal) = (&group.model.laws, &group.model.normal);
     let rate = !normal.stiffness_is_bounded();
@@ -114,7 +114,7 @@ fn wants(group: &ContactGroup, advance: &Advance) -> Wants {
     }
 }
 
-/// Takes in what the blocks of a group add up to.
+/// Stores the sums over the blocks of a group.
 #[inline(always)]
 fn finish<R: Simd8>(group: &mut ContactGroup, totals: &BlockSums<R>) {
     group.energies = totals.energies.to_array();
@@ -124,43 +124,43 @@ fn finish<R: Simd8>(group: &mut ContactGroup, totals: &BlockSums<R>) {
     group.rate_squared = rates.0.iter().copied().fold(0.0, f64::max);
 }
 
-/// What a loop works on.
+/// The inputs of a loop over a group.
 struct Loop<'a> {
     group: &'a mut ContactGroup,
     sums: &'a mut [ForceTorque],
     moving: KinematicColumns<'a>,
     advance: &'a Advance,
-    /// By how much a gap can have closed at the most since the candidates were listed [m].
+    /// Upper bound of how much a gap can have closed since the last rebuild [m].
     approach: f64,
     prefetch: Prefetch<'a>,
 }
 
-/// Rows that are brought near in one round at the most.
+/// Largest number of rows that are prefetched in one round.
 const MOST_ROWS: usize = 16;
 
-/// What is likely to be needed next.
+/// What the next chunk is likely to need.
 #[derive(Debug, Default)]
 pub(crate) struct Prefetch<'a> {
-    /// Rows one behind the other.
+    /// Rows to prefetch, consecutive.
     pub(crate) rows: Range<usize>,
-    /// Rows here and there.
+    /// Rows to prefetch, scattered.
     pub(crate) halo: &'a [u32],
-    /// Sums that are to be set to zero.
+    /// Sums to zero.
     pub(crate) sums: &'a mut [ForceTorque],
 }
 
 impl Prefetch<'_> {
-    /// How much of each to make ready in each of so many rounds.
+    /// How much of each to handle in each of so many rounds.
     #[inline(always)]
     fn in_rounds(&self, rounds: usize) -> [usize; 3] {
-        // Where there are few contacts rows are not waited for, and asking for many at once would be.
+        // With few contacts there is little work to hide many prefetches behind.
         let rows = self.rows.len().div_ceil(rounds).min(MOST_ROWS);
         let halo = self.halo.len().div_ceil(rounds).min(MOST_ROWS);
         // Two packed vectors in a cache line.
         [rows.next_multiple_of(2), halo, self.sums.len().div_ceil(rounds)]
     }
 
-    /// Has some of the rows brought near, and some of the sums set to zero.
+    /// Prefetches some of the rows and zeroes some of the sums.
     #[inline(always)]
     fn make_ready(&mut self, moving: KinematicColumns<'_>, [rows, halo, sums]: [usize; 3]) {
         let end = (self.rows.start + rows).min(self.rows.end);

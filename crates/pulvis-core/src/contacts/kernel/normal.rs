@@ -1,4 +1,4 @@
-//! Where the loops get the answers of normal laws from: inlined, or through a pointer once a batch.
+//! How the loops call normal laws: inlined, or through a pointer once per batch.
 
 use std::marker::PhantomData;
 
@@ -11,20 +11,20 @@ use super::batch::{BATCH, BlockColumns, GatheredBlock};
 /// Eight contacts at a time.
 type F64x8 = F64Array<8>;
 
-/// How a loop asks the normal law.
+/// How a loop calls the normal law.
 pub(super) trait NormalCall<R: Simd8> {
-    /// Where the answer to one block comes from.
+    /// The source of the response for one block.
     type Source<'a>: NormalSource<R>
     where
         Self: 'a;
 
-    /// Makes ready for the blocks of a batch, whose memory stands in `memory`.
+    /// Called once per batch, before any block of it is computed; `memory` is that of the group.
     fn prepare(&mut self, blocks: &[GatheredBlock<R>], memory: &mut [F64x8]);
 
-    /// The answer to the block `index` of the batch.
+    /// The response for block `index` of the batch.
     fn source(&self, index: usize) -> Self::Source<'_>;
 
-    /// The stiffness [N/m] of the block `index`, where anybody wants to know.
+    /// The stiffness [N/m] of block `index`, where it is monitored.
     fn stiffness(&self, index: usize) -> Option<R>;
 }
 
@@ -45,25 +45,25 @@ impl<R: Simd8, N: NormalLaw> NormalCall<R> for Inlined<N> {
     }
 }
 
-/// Which of a law's answers a loop looks at, beside force, friction reference and dashpot. What nobody wants is not
-/// even computed.
+/// Which parts of a law's response a loop uses, beside force, friction reference and dashpot. The compiler moves
+/// the computation of the other parts into branches that are not taken.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wants {
-    /// What the contact stores.
+    /// Stored energy.
     pub(super) energy: bool,
-    /// What it has lost.
+    /// Dissipated energy.
     pub(super) losses: bool,
-    /// How far it has hardened, and its overlap scale.
+    /// Hardening, and the overlap scale.
     pub(super) hardening: bool,
-    /// Its elastic stiffness.
+    /// Elastic stiffness.
     pub(super) stiffness: bool,
-    /// The radius of its area.
+    /// Radius of the contact area.
     pub(super) radius: bool,
-    /// Whether the largest rate of its blocks is to be watched.
+    /// Whether the largest k/m_r is monitored.
     pub(super) rate: bool,
 }
 
-/// The laws of a batch of blocks, called through a pointer.
+/// A normal law that is called through a pointer once per batch.
 pub(super) struct Pointed<'a, R: Simd8> {
     law: &'a Normal,
     pointer: Pointer<NormalTask, R>,
@@ -106,7 +106,7 @@ impl<R: Simd8> NormalCall<R> for Pointed<'_, R> {
     }
 }
 
-/// What a law's routine works on.
+/// The inputs and outputs of a law's routine.
 pub(super) struct NormalBatch<'a, R: Simd8> {
     law: &'a Normal,
     blocks: &'a [GatheredBlock<R>],
@@ -117,7 +117,7 @@ pub(super) struct NormalBatch<'a, R: Simd8> {
     wants: Wants,
 }
 
-/// The answers of a normal law to a batch of blocks.
+/// Computes the responses of a normal law for a batch of blocks.
 pub(super) struct NormalTask;
 
 impl Task for NormalTask {
@@ -131,7 +131,7 @@ impl<N: NormalLaw> Routine<NormalTask> for RoutineOf<N> {
     #[inline(always)]
     fn call<R: Simd8>(data: &mut NormalBatch<'_, R>) {
         let Some(law) = N::of(data.law) else { return };
-        // By value: not to be read anew after every store.
+        // By value: otherwise the compiler reads them again after every store.
         let (law, wants, time_step) = (*law, data.wants, data.time_step);
         for (block, slot) in data.blocks.iter().zip(&mut *data.answers) {
             let motion = NormalMotion::new(&block.pair, &block.motion, time_step);

@@ -11,8 +11,8 @@ use super::{Advance, KinematicColumns, Loop, finish, response, wants};
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
 
-/// Runs the loop over a group: one that is compiled for its normal law if it is a common contact, otherwise the one
-/// that calls laws through pointers.
+/// Runs the loop over a group: for a common contact the loop that is compiled for its normal law, otherwise the loop that
+/// calls laws through pointers.
 ///
 /// # Safety
 /// As of [`sweep`](super::sweep).
@@ -93,7 +93,7 @@ impl<const RESISTANCE: u8> Kernel for PointedPairs<'_, RESISTANCE> {
     }
 }
 
-/// The loop: blocks of eight are gathered, computed and added up, a batch at a time.
+/// The loop: gathers blocks of eight, computes them and adds up their forces, one batch at a time.
 ///
 /// # Safety
 /// As of [`sweep`](super::sweep).
@@ -104,7 +104,7 @@ unsafe fn sweep_pairs<R: Simd8, C: NormalCall<R>, const RESISTANCE: u8, const LE
 ) {
     let Loop { group, sums, moving, advance, approach, mut prefetch } = contacts;
     let sums = Shared::new(sums);
-    // By value: not to be read anew after every store.
+    // By value: otherwise the compiler reads it again after every store.
     let gathering = Gathering {
         moving,
         advance: *advance,
@@ -137,7 +137,7 @@ unsafe fn sweep_pairs<R: Simd8, C: NormalCall<R>, const RESISTANCE: u8, const LE
     finish(group, &totals);
 }
 
-/// What blocks are gathered with.
+/// The inputs of gathering a block.
 #[derive(Clone, Copy)]
 struct Gathering<'a> {
     moving: KinematicColumns<'a>,
@@ -149,7 +149,12 @@ struct Gathering<'a> {
 }
 
 impl Gathering<'_> {
-    /// Gathers a block into the batch, unless none of its contacts acts or has acted in the last step.
+    /// Gathers a block into the batch, unless none of its contacts acts or acted in the last step.
+    ///
+    /// 1. Skip the block if its smallest gap cannot have closed and it did not act in the last step.
+    /// 2. Load positions and compute overlaps.
+    /// 3. Skip the block if no contact acts and none acted in the last step.
+    /// 4. Load velocities, and angular velocities where resistances need them.
     ///
     /// # Safety
     /// `block` is one of the group's, whose rows lie within the columns; nobody writes those meanwhile.
@@ -177,7 +182,7 @@ impl Gathering<'_> {
         }
         let distance = separation.norm();
         let overlap = radius_i + radius_j - distance;
-        // Idle lanes are out of any range.
+        // Idle lanes get an overlap outside the interaction range.
         let occupied = occupied_lanes::<R>(unsafe { *group.occupancy.get_unchecked(block) });
         let end = R::splat(-range);
         let overlap = R::select(occupied, overlap, end + end - radius_i);

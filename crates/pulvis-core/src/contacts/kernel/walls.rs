@@ -19,7 +19,8 @@ pub(super) unsafe fn sweep(contacts: Loop<'_>, walls: &[WallNow]) {
     set.run(WallLoop { contacts, walls });
 }
 
-/// Contacts with walls are few: one loop does for all laws, called through pointers, and for all levels of resistance.
+/// The loop over contacts with walls. They are few, so that one loop serves all laws, through pointers, and all levels of
+/// resistance.
 struct WallLoop<'a> {
     contacts: Loop<'a>,
     walls: &'a [WallNow],
@@ -41,7 +42,7 @@ impl Kernel for WallLoop<'_> {
         let mut totals = BlockSums::<R>::new();
         let any_turns = walls.iter().any(|wall| wall.angular_velocity().is_some());
         group.wall_forces.fill(WallForce::default());
-        // The forces of one wall at a time.
+        // The forces of one wall are summed at a time.
         let (mut at_wall, mut force, mut torque) = (0, Vector3::<R>::zero(), R::zero());
         let mut arms = [Vector3::<R>::zero(); BATCH];
         let mut batch = Batch::<R>::new();
@@ -69,7 +70,7 @@ impl Kernel for WallLoop<'_> {
                 group.active[block] = acts;
                 let (mid, inverse_mass) = unsafe { gather::<R>(moving.velocity_mid, rows) };
                 let (velocity, inverse_radius) = unsafe { gather::<R>(moving.velocity, rows) };
-                // What a wall has none of stays zero.
+                // Values that a wall does not have stay zero.
                 let inputs = batch.add();
                 inputs.block = block;
                 inputs.pair = Pair::from_sums(inverse_mass, inverse_radius + surface.mean_curvature);

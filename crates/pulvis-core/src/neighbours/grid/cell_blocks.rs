@@ -1,27 +1,26 @@
 //! The order of the cells of a level.
 
-/// Cells are inputs in cell_blocks of up to eight cells along each edge, so that what is near in space is
-/// near in order and a stretch of rows is a compact body: cell_blocks follow each other line by line, and
-/// the cells of a brick in Morton order.
+/// Cells are numbered in blocks of up to eight cells along each edge, so that cells that are near in space are near in
+/// order, and a range of rows is a compact body. Blocks follow each other line by line; the cells of a block are in Morton
+/// order.
 ///
-/// Either part of a cell's number is a sum of one term for each axis; so are numbers as a whole, and
-/// the terms come from tables.
+/// The number of a cell is a sum of one term for each axis; the terms are in tables.
 #[derive(Clone, Debug)]
 pub(super) struct CellBlocks {
     terms: [Vec<u32>; 3],
-    /// Cells of all cell_blocks, also of those that are there only to fill cell_blocks up.
+    /// Cells of all blocks, with those that only fill up incomplete blocks.
     total: u32,
 }
 
-/// Edge of the largest cell_blocks: two to this power.
+/// Edge of the largest blocks: two to this power.
 const MOST_BITS: u32 = 3;
 
 impl CellBlocks {
-    /// CellBlocks that hold so many cells along each axis; their product must be below 2³².
+    /// Blocks for this many cells along each axis; their product must be below 2³².
     pub(super) fn new(cells: [u32; 3]) -> Self {
-        let bits = cells.map(brick_bits);
-        let brick = 1_u32 << bits.iter().sum::<u32>();
-        let mut stride = brick;
+        let bits = cells.map(block_bits);
+        let block = 1_u32 << bits.iter().sum::<u32>();
+        let mut stride = block;
         let mut terms: [Vec<u32>; 3] = Default::default();
         for axis in 0..3 {
             let mask = (1 << bits[axis]) - 1;
@@ -32,13 +31,13 @@ impl CellBlocks {
         Self { terms, total: stride }
     }
 
-    /// Number of cells along an axis when cell_blocks are filled up.
+    /// Number of cells along an axis when blocks are filled up.
     pub(super) fn padded(cells: f64) -> f64 {
-        let edge = f64::from(1_u32 << brick_bits(cells as u32));
+        let edge = f64::from(1_u32 << block_bits(cells as u32));
         (cells / edge).ceil() * edge
     }
 
-    /// Number of cells in all cell_blocks.
+    /// Number of cells in all blocks.
     pub(super) fn total(&self) -> u32 {
         self.total
     }
@@ -56,9 +55,9 @@ impl CellBlocks {
     }
 }
 
-/// Edge of the cell_blocks along an axis of so many cells, as a power of two: the largest for which
-/// filling cell_blocks up adds no more than a third.
-fn brick_bits(cells: u32) -> u32 {
+/// Edge of the blocks along an axis of this many cells, as a power of two: the largest for which filling blocks up adds no
+/// more than a third.
+fn block_bits(cells: u32) -> u32 {
     let few_more = |bits: &u32| {
         let padded = u64::from(cells).next_multiple_of(1 << bits);
         3 * padded <= 4 * u64::from(cells)
@@ -122,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn a_brick_is_a_cube_in_morton_order() {
+    fn a_block_is_a_cube_in_morton_order() {
         let cell_blocks = CellBlocks::new([16, 16, 16]);
         assert_eq!((cell_blocks.term(0, 1), cell_blocks.term(1, 1), cell_blocks.term(2, 1)), (1, 2, 4));
         assert_eq!((cell_blocks.term(0, 2), cell_blocks.term(1, 2), cell_blocks.term(2, 2)), (8, 16, 32));

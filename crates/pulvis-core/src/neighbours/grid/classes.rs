@@ -2,14 +2,14 @@
 
 use pulvis_math::{Packed4, Vector3};
 
-/// Classes of sizes at the most: the finest takes in whatever is finer still.
+/// Largest number of classes: the finest one also takes all smaller particles.
 const MOST: usize = 24;
 
 /// Classes of like sizes, finest first; none is empty.
 #[derive(Clone, Debug)]
 pub(super) struct Classes {
     pub(super) list: Vec<Class>,
-    /// Place of each row's class in the list.
+    /// Index of each row's class in the list.
     pub(super) of_row: Vec<u8>,
 }
 
@@ -27,9 +27,8 @@ pub(super) struct Class {
 }
 
 impl Classes {
-    /// Sorts particles into classes, in each of which sizes differ by less than a factor of two. What
-    /// counts as size is the radius and half the `margin` [m]: that is what cells must be wide enough
-    /// for.
+    /// Sorts particles into classes, in each of which sizes differ by less than a factor of two. The size of a particle is
+    /// its radius plus half the `margin` [m], which is what the width of cells must allow for.
     pub(super) fn of(positions: &[Packed4], margin: f64) -> Self {
         let half_margin = 0.5 * margin;
         let largest = positions.iter().map(|position| position.scalar).fold(0.0, f64::max) + half_margin;
@@ -53,7 +52,7 @@ impl Classes {
     }
 
     /// Centres [m] of the particles of a class.
-    pub(super) fn workers<'a>(
+    pub(super) fn centres<'a>(
         &'a self,
         class: usize,
         positions: &'a [Packed4],
@@ -78,8 +77,8 @@ impl Class {
     }
 }
 
-/// How often a ratio can be halved without falling below one: its exponent, as a logarithm for every
-/// particle would take its time.
+/// How often a ratio can be halved without falling below one. Read from its exponent, because a logarithm for every particle
+/// would be slow.
 fn whole_halvings(ratio: f64) -> usize {
     const ONE: u64 = 1023;
     let exponent = (ratio.to_bits() >> 52) & 0x7ff;

@@ -26,10 +26,10 @@ pub(super) struct Level {
     bounds: [[f64; 2]; 3],
 }
 
-/// LaneIndices of cells along each axis: the first and how many there are, around the end of periodic axes.
+/// Cell coordinates along each axis: the first and their number, continued over the end of periodic axes.
 pub(super) type Touched = [(u32, u32); 3];
 
-/// What a coordinate along an axis and those beside it add to the number of a cell.
+/// The terms that a cell coordinate along an axis and its neighbours add to the number of a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beside {
     terms: [u32; 3],
@@ -43,23 +43,23 @@ impl Beside {
     }
 }
 
-/// Cells per particle at the most, those included that are there only to fill cell_blocks up: fragments
-/// that fly apart must not make the grid grow with the volume that they span.
+/// Largest number of cells per particle, with those that only fill up blocks: the grid must not grow with the volume that
+/// fragments span when they fly apart.
 const CELLS_PER_PARTICLE: u64 = 8;
-/// So few cells are no burden.
+/// Number of cells that is always allowed.
 const FREE_CELLS: u64 = 64;
-/// Numbers of cells must fit into 32 bits, all levels taken together.
+/// Largest number of cells of a level: the numbers of all levels together must fit into 32 bits.
 const MOST_CELLS: u64 = 1 << 27;
-/// How many particles tell where most of them are.
+/// Number of particles that are sampled to find where most of them are.
 const SAMPLE: usize = 4096;
 
 impl Level {
     /// The level of a class, with cells wide enough for pairs up to `margin` [m] beyond touching;
-    /// `workers` are its centres [m], `first` its first cell and row.
-    pub(super) fn new<Members: Iterator<Item = Vector3>>(
+    /// `centres` are those of its particles [m], `first` its first cell and row.
+    pub(super) fn new<Centres: Iterator<Item = Vector3>>(
         domain: &Domain,
         class: &Class,
-        workers: impl Fn() -> Members,
+        centres: impl Fn() -> Centres,
         margin: f64,
         first: (u32, u32),
     ) -> Self {
@@ -74,7 +74,7 @@ impl Level {
         let mut cells = cells_within(spans, edge, most);
         if cells.is_none() {
             let step = class.count as usize / SAMPLE + 1;
-            let sample: Vec<Vector3> = workers().step_by(step).collect();
+            let sample: Vec<Vector3> = centres().step_by(step).collect();
             for axis in (0..3).filter(|&axis| !periodic[axis]) {
                 spans[axis] = crowded(&sample, axis, bounds[axis]);
             }
@@ -105,19 +105,18 @@ impl Level {
         self.first_cell + self.cell_blocks.total()
     }
 
-    /// Place of the cell along each axis that a centre [m] is in.
+    /// Coordinates of the cell that a centre [m] is in.
     #[inline(always)]
     pub(super) fn cell_coordinates_at(&self, position: Vector3) -> [u32; 3] {
         let along = |axis: usize| {
-            // Conversion cuts off at zero what lies below; round-off may put a wrapped particle on the
-            // upper face.
+            // The conversion takes negative values to zero; round-off may put a wrapped particle on the upper face.
             let along = (position[axis] - self.lower[axis]) * self.inverse_width[axis];
             (along as u32).min(self.cell_blocks.along(axis) - 1)
         };
         [along(0), along(1), along(2)]
     }
 
-    /// Number of the cell at a coordinate along each axis.
+    /// Number of the cell at these coordinates.
     #[inline(always)]
     pub(super) fn number(&self, [x, y, z]: [u32; 3]) -> u32 {
         self.first_cell
@@ -132,8 +131,8 @@ impl Level {
         self.first_cell
     }
 
-    /// A coordinate along an axis and those beside it, each once: with few cells along a periodic axis both
-    /// directions lead to the same coordinate.
+    /// A cell coordinate along an axis and its neighbours, each once: with few cells along a periodic axis both directions
+    /// lead to the same coordinate.
     #[inline(always)]
     pub(super) fn beside(&self, axis: usize, coordinate: u32) -> Beside {
         let cells = self.cell_blocks.along(axis);
@@ -155,8 +154,7 @@ impl Level {
         Beside { terms, count: count as usize }
     }
 
-    /// Cells that may hold centres less than `reach` [m] away from `position` along each axis; none
-    /// where there cannot be any.
+    /// Cells that may hold centres less than `interaction_range` [m] away from `position` along each axis, if there are any.
     #[inline(always)]
     pub(super) fn touched(&self, position: Vector3, interaction_range: f64) -> Option<Touched> {
         let mut touched = [(0, 0); 3];
@@ -174,7 +172,7 @@ impl Level {
             } else if last.saturating_sub(first) >= cells - 1 {
                 (0, cells as u32)
             } else {
-                // Most are within already; a division takes its time.
+                // Most are within already; a division is slow.
                 let within = if (0..cells).contains(&first) { first } else { first.rem_euclid(cells) };
                 (within as u32, (last - first + 1) as u32)
             };
@@ -189,7 +187,7 @@ impl Level {
     }
 }
 
-/// Not the library's: without the instruction for it, that is a call.
+/// Not `f64::floor`, which is a function call on processors without an instruction for it.
 #[inline(always)]
 fn floor(value: f64) -> i64 {
     let cut = value as i64;
@@ -199,7 +197,7 @@ fn floor(value: f64) -> i64 {
 /// Numbers of cells along each axis if they are at least `width` [m] wide, unless there would be more
 /// than `most` of them.
 fn cells_within(spans: [[f64; 2]; 3], width: f64, most: f64) -> Option<[u32; 3]> {
-    // What is no number counts as one cell.
+    // A NaN counts as one cell.
     let along = |widths: f64| if widths >= 1.0 { widths.min(1e9).floor() } else { 1.0 };
     let cells = spans.map(|[lower, upper]| along((upper - lower) / width));
     let padded = cells.map(CellBlocks::padded);
@@ -210,7 +208,7 @@ fn cells_within(spans: [[f64; 2]; 3], width: f64, most: f64) -> Option<[u32; 3]>
 /// more than `most` of them.
 fn wider_cells_within(spans: [[f64; 2]; 3], width: f64, most: f64) -> [u32; 3] {
     let longest = spans.iter().map(|[lower, upper]| upper - lower).fold(0.0, f64::max);
-    // Along the longest side alone there must not be too many. What has no end gets one cell.
+    // The longest side alone must not have too many. An infinite span gets one cell.
     let mut width = width.max(longest / most);
     while width.is_finite() {
         if let Some(cells) = cells_within(spans, width, most) {
@@ -221,8 +219,8 @@ fn wider_cells_within(spans: [[f64; 2]; 3], width: f64, most: f64) -> [u32; 3] {
     [1; 3]
 }
 
-/// The interval along an axis [m] within `bounds` where nearly all of the `sample` are: cells are not
-/// to be wasted on the way to a few that have flown off.
+/// The interval along an axis [m] within `bounds` that contains nearly all of the `sample`: no cells are wasted on the space
+/// between the sample and a few particles far away.
 fn crowded(sample: &[Vector3], axis: usize, bounds: [f64; 2]) -> [f64; 2] {
     let mut along: Vec<f64> = sample.iter().map(|position| position[axis]).collect();
     along.sort_unstable_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! Candidate pairs.
+//! Pairs of row ranges that may contain neighbours.
 
 use std::ops::Range;
 
@@ -7,22 +7,22 @@ use pulvis_math::{Packed4, Vector3};
 use super::CellGrid;
 use super::level::{Level, Touched};
 
-/// Rows, each of which may be near the later ones among other rows; as first row and end. Of the stretches of the
-/// same ones, only the first may hold others that are not later.
+/// Two ranges of rows (first row and end): each row of `ones` may be near each row of `others` that comes later. Of all
+/// pairs with the same `ones`, only the first may have `others` that do not come later.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RowRangePair {
     pub(crate) ones: (u32, u32),
     pub(crate) others: (u32, u32),
 }
 
-/// Candidates in the own and in the adjacent cells, as stretches of rows.
+/// Rows of the same cell and of adjacent cells, as ranges.
 struct Adjacent {
-    /// What comes later in the own cell, then what is in later cells.
+    /// The later rows of the same cell, then the rows of later cells.
     runs: [(u32, u32); 27],
     count: usize,
 }
 
-/// Candidates in a coarser level, as stretches of rows.
+/// Rows of a coarser level, as ranges.
 #[derive(Clone, Debug, Default)]
 struct Coarser {
     runs: Vec<(u32, u32)>,
@@ -31,11 +31,10 @@ struct Coarser {
 }
 
 impl CellGrid {
-    /// Calls `see` with stretches of rows in which every partner of each row in `rows` is found: later
-    /// rows whose centres may be closer than the sum of the radii and the margin. Each pair of a row and
-    /// a later one is in one stretch over all rows; distances are not checked. `positions` are the centres
-    /// [m] and radii [m] that were sorted, in the new order. The partners of a row and their order do
-    /// not depend on the range that it is in.
+    /// Calls `see` with pairs of row ranges that contain every neighbour of each row in `rows`: later rows whose centres may
+    /// be closer than the sum of the radii and the margin. Each pair of rows is in exactly one of them; distances are not
+    /// checked. `positions` are the sorted centres [m] and radii [m], in the new order. The neighbours of a row and their
+    /// order do not depend on `rows`.
     pub(crate) fn for_each_row_range_pair_of(
         &self,
         rows: Range<u32>,
@@ -72,17 +71,16 @@ impl CellGrid {
         }
     }
 
-    /// Lists the rows of the cell at the coordinates `cell`, first, and of the cells beside it that come later.
-    /// Answers with the end of the cell's own rows.
+    /// Lists the rows of the cell at the coordinates `cell`, then those of adjacent cells that come later. Returns the end of
+    /// the rows of the cell itself.
     #[inline(always)]
     fn list_adjacent(&self, level: &Level, cell: [u32; 3], list: &mut Adjacent) -> u32 {
         let number = level.number(cell);
         let own = self.rows_of(number);
         let [x, y, z] = cell;
         let beside = [level.beside(0, x), level.beside(1, y), level.beside(2, z)];
-        // Which cells come later and hold anything follows no pattern that a processor could learn:
-        // every cell is written down, and what is not wanted or goes on where the last stretch ends
-        // takes no new index.
+        // Which cells come later and are not empty is unpredictable for a processor, so there is no branch: every cell is
+        // written, and the index advances only for a cell that is wanted and does not continue the last range.
         let mut last = own;
         let mut count = 0;
         list.runs[0] = own;
@@ -104,12 +102,11 @@ impl CellGrid {
         own.1
     }
 
-    /// Lists the rows of a coarser level within reach of a centre [m] of a smaller particle of the
-    /// given radius [m].
+    /// Lists the rows of a coarser level that may be near a smaller particle with this centre [m] and radius [m].
     #[inline(always)]
     fn list_touched(&self, coarse: &Level, position: Vector3, radius: f64, list: &mut Coarser) {
         let touched = coarse.touched(position, radius + coarse.largest + self.margin);
-        // Small particles that follow each other are near each other: mostly nothing has changed.
+        // Consecutive small particles are near each other: mostly they touch the same cells.
         if touched != list.touched {
             list.touched = touched;
             self.list_cells(coarse, list);

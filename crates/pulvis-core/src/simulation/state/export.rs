@@ -1,4 +1,4 @@
-//! A state out of a simulation.
+//! Export of a state.
 
 use pulvis_math::{Packed4, Vector3};
 
@@ -9,10 +9,9 @@ use crate::simulation::{Outcome, Simulation};
 use crate::walls::{Wall, WallState};
 
 impl Simulation {
-    /// Everything that decides the next bit. Nothing changes in the simulation that it is taken from: that goes on as
-    /// if nobody had asked.
+    /// Everything that decides the next bit. The simulation itself does not change.
     pub fn export_state(&self) -> State {
-        // Whoever adds a field must say here whether it decides a bit.
+        // A new field must be listed here: decide whether it affects the next bit.
         let Self {
             particles,
             // Given again at the import.
@@ -29,7 +28,7 @@ impl Simulation {
             // Filled and used up in a rebuild.
             memory: _,
             former_rows,
-            // Decide the speed only.
+            // Affect the speed only.
             pool: _,
             instructions: _,
             pointers: _,
@@ -92,8 +91,8 @@ fn particles_of(particles: &Particles) -> ParticleState {
         next_id: _,
     } = particles;
     let vectors = |column: &[Packed4]| column.iter().map(|packed| packed.vector.to_array()).collect();
-    // Behind those of the rows stand the halos' sums of the last step.
-    let loads = &forces_and_torques[..id.len()];
+    // The halo sums of the last step follow those of the rows.
+    let of_rows = &forces_and_torques[..id.len()];
     ParticleState {
         id: id.clone(),
         material: material.clone(),
@@ -102,8 +101,8 @@ fn particles_of(particles: &Particles) -> ParticleState {
         position: vectors(position),
         velocity: vectors(velocity),
         angular_velocity: vectors(angular_velocity),
-        force: loads.iter().map(|ForceTorque { force, .. }| force.vector.to_array()).collect(),
-        torque: loads.iter().map(|ForceTorque { torque, .. }| torque.vector.to_array()).collect(),
+        force: of_rows.iter().map(|ForceTorque { force, .. }| force.vector.to_array()).collect(),
+        torque: of_rows.iter().map(|ForceTorque { torque, .. }| torque.vector.to_array()).collect(),
         columns: columns.clone(),
     }
 }
@@ -120,7 +119,7 @@ fn walls_of(walls: &[Wall], states: &[WallState], starts: &[f64], listed: &[Vect
     walls.iter().zip(states).zip(starts).zip(listed).map(record).collect()
 }
 
-/// What skins and integration know of the list.
+/// The parts of skins and integration that belong to the neighbour list.
 fn list_of(skin: &Skin, outcomes: &[Outcome]) -> ListState {
     let Skin { thickest, thinnest, positions, walls: _, steps } = skin;
     let mut list = ListState {
@@ -131,7 +130,7 @@ fn list_of(skin: &Skin, outcomes: &[Outcome]) -> ListState {
         radius_with_skin: positions.iter().map(|listed| listed.scalar).collect(),
         ..ListState::default()
     };
-    // The speeds and powers of the last kicks have been used up.
+    // The speeds and powers of the last kicks are not used again.
     for Outcome { kicked: _, moved: Moved { longest, second, left }, seconds: _ } in outcomes {
         list.displacement_largest.push(*longest);
         list.displacement_second.push(*second);

@@ -1,4 +1,4 @@
-//! A simulation out of a state.
+//! Import of a state.
 
 use pulvis_math::{Packed4, Vector3};
 
@@ -12,7 +12,7 @@ use crate::simulation::Simulation;
 use crate::walls::{Wall, WallState};
 
 impl Simulation {
-    /// A simulation that goes on where the exported one was, with the same bits.
+    /// A simulation that continues the exported one, with the same bits.
     ///
     /// `interactions` and `walls` are those of the exported simulation: contact models, and the names, materials,
     /// shapes, areas and motions of the walls. Where walls stand and whether they are there is taken from the state.
@@ -42,7 +42,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Makes the list anew that the state was in the middle of. Leaves particles and walls where they were listed.
+    /// Makes the neighbour list of the state again. Particles and walls are then where they were at that rebuild.
     fn remake_list(&mut self, list: &ListState) -> Result<(), StateError> {
         let listed = |(centre, radius): (&[f64; 3], &f64)| Packed4::new(Vector3::from(*centre), *radius);
         let positions: Vec<Packed4> = list.position.iter().zip(&list.radius_with_skin).map(listed).collect();
@@ -82,14 +82,14 @@ impl Simulation {
         Ok(())
     }
 
-    /// Puts particles, walls and counters to where they are now.
+    /// Moves particles, walls and counters to their values in the state.
     fn go_to_present(&mut self, state: &State) -> Result<(), StateError> {
         let ParticleState { position, force, torque, .. } = &state.particles;
         for (column, &now) in self.particles.position.iter_mut().zip(position) {
             column.vector = Vector3::from(now);
         }
-        for ((load, &force), &torque) in self.particles.forces_and_torques.iter_mut().zip(force).zip(torque) {
-            *load = ForceTorque {
+        for ((row, &force), &torque) in self.particles.forces_and_torques.iter_mut().zip(force).zip(torque) {
+            *row = ForceTorque {
                 force: Packed4::new(Vector3::from(force), 0.0),
                 torque: Packed4::new(Vector3::from(torque), 0.0),
             };

@@ -12,13 +12,12 @@ use crate::contacts::ContactRecords;
 use crate::particles::{MaterialIndex, ParticleId};
 use pulvis_boundary::{Background, Domain};
 
-/// Everything that decides the next bit of a simulation, as plain columns: [`Simulation::import_state`] makes a
-/// simulation of it that goes on as the exported one does, bit for bit, for any number of threads and on any
-/// instruction set.
+/// Everything that decides the next bit of a simulation, as plain columns. [`Simulation::import_state`] makes a simulation
+/// of it that continues the exported one, bit for bit, for any number of threads and on any instruction set.
 ///
-/// Not in it: contact models and the names, materials, shapes, areas and motions of walls, which are given again at
-/// the import; and what is chosen anew for each run and changes no bit: threads, instructions, limits. Everything
-/// else in a simulation is worked out from this.
+/// Not included are contact models and the names, materials, shapes, areas and motions of walls, which are given again at
+/// the import; and settings of a run that change no bit: threads, instructions, limits. Everything else in a simulation is
+/// derived from the state.
 ///
 /// [`Simulation::import_state`]: crate::Simulation::import_state
 #[derive(Clone, Debug, PartialEq)]
@@ -41,11 +40,11 @@ pub struct State {
     pub particles: ParticleState,
     /// The walls, in the order of the list of walls.
     pub walls: Vec<WallRecord>,
-    /// What the present neighbour list was made from, and how far it has been used up.
+    /// The state at the last rebuild, and how far bodies have moved since.
     pub list: ListState,
-    /// What contacts remember, one table for each kind of memory.
+    /// Memory of the contacts, one table for each kind of memory.
     pub memory: Vec<ContactRecords>,
-    /// What the energy ledger has added up so far, by name [J, and W for powers].
+    /// The sums of the energy ledger so far, by name [J, and W for powers].
     pub ledger: Vec<(String, f64)>,
 }
 
@@ -91,7 +90,7 @@ pub struct WallRecord {
     pub motion: Vec<(String, f64)>,
 }
 
-/// What the present neighbour list was made from: the same list is made from it again at the import.
+/// The state at the last rebuild, from which an import makes the same neighbour list.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ListState {
     /// How many lists there have been before it.
@@ -116,7 +115,7 @@ pub struct ListState {
     pub displacement_largest: Vec<f64>,
     /// The same of the second largest [m].
     pub displacement_second: Vec<f64>,
-    /// Lower bound of what is left of any particle's skin [m], chunk by chunk.
+    /// Lower bound of the remaining skin of any particle [m], chunk by chunk.
     pub remaining_skin: Vec<f64>,
     /// Whether any contact of a block of eight acts, block by block.
     pub active: Vec<bool>,
