@@ -11,8 +11,8 @@ macro_rules! contact_energies {
         stored { $($(#[$doc_stored:meta])* $stored:ident,)* }
         dissipated { $($(#[$doc_dissipated:meta])* $dissipated:ident,)* }
     ) => {
-        /// What a contact holds now, what it has lost since the last call, and at which power its
-        /// dashpots take energy now.
+        /// Energies that a contact stores now, energies dissipated since the last call, and the present power of its
+        /// dashpots.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct ContactEnergies<R = f64> {
             $($(#[$doc_stored])* pub $stored: R,)*
@@ -20,7 +20,7 @@ macro_rules! contact_energies {
         }
 
         impl<R: Real> ContactEnergies<R> {
-            /// Adds what is held now; what was lost stays.
+            /// Adds the stored energies; dissipated energies stay.
             #[inline(always)]
             pub fn add_stored(&mut self, other: &Self) {
                 $(self.$stored += other.$stored;)*
@@ -74,9 +74,9 @@ macro_rules! each_account {
 }
 
 impl<R: Real> ContactEnergies<R> {
-    /// Adds what was lost by contacts of a [level](levels) of resistance, and the power of their dashpots; what is
-    /// held stays. Along the normal nothing is lost unless something is
-    /// [remembered](crate::ContactLaws::remembers_normal_motion) (`with_memory`).
+    /// Adds the energies dissipated by contacts of a [level](levels) of resistance, and the power of their dashpots; stored
+    /// energies stay. Along the normal, a contact dissipates only if it
+    /// [remembers](crate::ContactLaws::remembers_normal_motion) something (`with_memory`).
     #[inline(always)]
     pub fn add_dissipated<const RESISTANCE: u8>(&mut self, other: &Self, with_memory: bool) {
         self.viscous_power += other.viscous_power;
@@ -96,27 +96,27 @@ impl<R: Real> ContactEnergies<R> {
 
 contact_energies! {
     stored {
-        /// Held by the normal law's elastic branch [J].
+        /// Stored on the elastic branch of the normal law [J].
         elastic_normal,
-        /// Held by the sliding spring [J].
+        /// Stored in the sliding spring [J].
         elastic_sliding,
-        /// Held by the rolling spring [J].
+        /// Stored in the rolling spring [J].
         elastic_rolling,
-        /// Held by the torsion spring [J].
+        /// Stored in the torsion spring [J].
         elastic_torsion,
-        /// Potential of the attraction, zero out of reach [J].
+        /// Potential of the attraction, zero beyond its range [J].
         adhesive_potential,
     }
     dissipated {
-        /// Lost by plastic deformation since the last call [J].
+        /// Dissipated by plastic deformation since the last call [J].
         dissipated_plastic,
-        /// Lost on the adhesive limit branch and by attraction that sets in suddenly, since the last call [J].
+        /// Dissipated on the adhesive limit branch and by attraction that sets in suddenly, since the last call [J].
         dissipated_adhesive,
-        /// Lost by sliding since the last call [J].
+        /// Dissipated by sliding since the last call [J].
         dissipated_sliding,
-        /// Lost by rolling slip since the last call [J].
+        /// Dissipated by rolling slip since the last call [J].
         dissipated_rolling,
-        /// Lost by torsion slip since the last call [J].
+        /// Dissipated by torsion slip since the last call [J].
         dissipated_torsion,
         /// Power of all dashpots now [W].
         viscous_power,

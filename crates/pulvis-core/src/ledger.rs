@@ -1,61 +1,60 @@
-//! The energy ledger: every joule has an account.
+//! The energy ledger: all energies of a simulation, account by account.
 
 mod record;
 
 use pulvis_contact::ContactEnergies;
 
-/// All accounts at one time. What the system holds, what it has lost and what was done on it; the
-/// difference is the [closing error](Ledger::closing_error).
+/// All accounts at one time: stored energy, dissipated energy and external work. Their balance is the
+/// [closing error](Ledger::closing_error).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
     /// Kinetic energy of translation [J].
     pub kinetic_translation: f64,
     /// Kinetic energy of rotation [J].
     pub kinetic_rotation: f64,
-    /// −dt²/8 Σ (f²/m + τ²/I): the part of the discrete energy that velocity-Verlet keeps beside the
-    /// kinetic energy. With the forces' work by the trapezoidal rule, K − dt²/8 Σ f²/m changes by
-    /// exactly that work in every step; without this term the ledger would show an error that is
-    /// none [J].
+    /// −dt²/8 Σ (f²/m + τ²/I): the part of the discrete energy that velocity-Verlet conserves beside the kinetic energy. With
+    /// the work of the forces by the trapezoidal rule, K − dt²/8 Σ f²/m changes by exactly that work in every step. Without
+    /// this term the ledger would show an error where there is none [J].
     pub kinetic_discretisation: f64,
-    /// Held by normal laws on their elastic branches [J].
+    /// Stored by normal laws on their elastic branches [J].
     pub elastic_normal: f64,
-    /// Held by sliding springs [J].
+    /// Stored in sliding springs [J].
     pub elastic_sliding: f64,
-    /// Held by rolling springs [J].
+    /// Stored in rolling springs [J].
     pub elastic_rolling: f64,
-    /// Held by torsion springs [J].
+    /// Stored in torsion springs [J].
     pub elastic_torsion: f64,
     /// Potential of attraction at a distance [J].
     pub adhesive: f64,
     /// Potential in the gravity field [J].
     pub gravity: f64,
-    /// Lost by plastic deformation of contacts [J].
+    /// Dissipated by plastic deformation of contacts [J].
     pub dissipated_plastic: f64,
-    /// Lost on adhesive limit branches and by attraction that sets in suddenly [J].
+    /// Dissipated on adhesive limit branches and by attraction that sets in suddenly [J].
     pub dissipated_adhesive: f64,
-    /// Lost by dashpots of contacts [J].
+    /// Dissipated by dashpots of contacts [J].
     pub dissipated_viscous: f64,
-    /// Lost by sliding [J].
+    /// Dissipated by sliding [J].
     pub dissipated_sliding: f64,
-    /// Lost by rolling slip [J].
+    /// Dissipated by rolling slip [J].
     pub dissipated_rolling: f64,
-    /// Lost by torsion slip [J].
+    /// Dissipated by torsion slip [J].
     pub dissipated_torsion: f64,
-    /// Lost by background drag [J].
+    /// Dissipated by background drag [J].
     pub dissipated_background: f64,
     /// Work done on the particles by walls with a prescribed motion [J].
     pub work_walls: f64,
     /// Work done on the particles by servo-controlled walls [J].
     pub work_servo: f64,
-    /// Energy that came in when laws, walls or the time step were switched [J].
+    /// Change of the stored energy by switches of laws, walls or the time step [J].
     pub switched: f64,
-    /// Carried in by particles that were inserted, with what their contacts store [J].
+    /// Energy of inserted particles, with that stored in their contacts [J].
     pub inflow: f64,
-    /// Carried out by particles that were removed, with what their contacts stored [J].
+    /// Energy of removed particles, with that stored in their contacts [J].
     pub outflow: f64,
-    /// What the system held at the start [J].
+    /// Stored energy at the start [J].
     pub initial: f64,
-    /// The largest energy that was in motion so far: the scale of relative errors [J].
+    /// The largest sum of kinetic, elastic and dissipated energy so far: the scale of relative errors [J].
     pub scale: f64,
 }
 
@@ -70,12 +69,12 @@ impl Ledger {
         self.elastic_normal + self.elastic_sliding + self.elastic_rolling + self.elastic_torsion
     }
 
-    /// Everything that the system holds [J].
+    /// All stored energy [J].
     pub fn stored(&self) -> f64 {
         self.kinetic() + self.kinetic_discretisation + self.elastic() + self.adhesive + self.gravity
     }
 
-    /// Everything that it has lost [J].
+    /// All dissipated energy [J].
     pub fn dissipated(&self) -> f64 {
         self.dissipated_plastic
             + self.dissipated_adhesive
@@ -86,7 +85,7 @@ impl Ledger {
             + self.dissipated_background
     }
 
-    /// Everything that was done on it [J].
+    /// All external work [J].
     pub fn work(&self) -> f64 {
         self.work_walls + self.work_servo + self.switched
     }
@@ -130,15 +129,15 @@ impl Ledger {
     }
 }
 
-/// What is added up step by step, between the times at which a [`Ledger`] is drawn up.
+/// The sums that are carried from step to step, from which a [`Ledger`] is made when asked for.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Running {
-    /// Held and power now, lost so far.
+    /// Stored energies and powers now, dissipated energies so far.
     pub(crate) contacts: ContactEnergies,
     pub(crate) viscous: f64,
     pub(crate) background: f64,
     background_power: f64,
-    /// What the gravity potential of wrapped positions lacks for being that of the way fallen.
+    /// Correction of the gravity potential for wrapped positions: a particle that falls through a periodic boundary falls on.
     pub(crate) gravity_wrapped: f64,
     pub(crate) switched: f64,
     pub(crate) inflow: f64,
@@ -148,13 +147,12 @@ pub(crate) struct Running {
 }
 
 impl Running {
-    /// Contacts that the system starts with have lost what they lost before its time.
+    /// Resets dissipated energies: those of contacts that exist at the start are not booked.
     pub(crate) fn forget_losses(&mut self) {
         self.set_losses(&ContactEnergies::default());
     }
 
-    /// Contacts have lost so far what they had lost `before`: what those that came in have lost, they lost before
-    /// they came.
+    /// Sets dissipated energies to those `before` an insertion: what inserted contacts dissipated earlier is not booked.
     pub(crate) fn set_losses(&mut self, before: &ContactEnergies) {
         self.contacts = ContactEnergies {
             dissipated_plastic: before.dissipated_plastic,
@@ -166,9 +164,8 @@ impl Running {
         };
     }
 
-    /// Takes in the contacts' energies and the background's power at the end of a step. Powers are
-    /// integrated by the trapezoidal rule: the work of a force over its two half kicks is the force
-    /// times the velocity of its time, exactly.
+    /// Adds the energies of contacts and the power of the background at the end of a step. Powers are integrated by the
+    /// trapezoidal rule: the work of a force over its two half kicks is exactly the force times the velocity at its time.
     pub(crate) fn take_in(&mut self, now: ContactEnergies, background_power: f64, time_step: f64) {
         self.viscous += 0.5 * time_step * (self.contacts.viscous_power + now.viscous_power);
         self.background += 0.5 * time_step * (self.background_power + background_power);

@@ -8,7 +8,7 @@ use crate::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use crate::sync::wait;
 use crate::thread_pool::Phase;
 
-/// The chunks of one pass: what is missing of each, and the complete ones that nobody has finished yet.
+/// The chunks of one pass: how many contributions each still waits for, and the complete ones that are not finished yet.
 ///
 /// A worker that has computed the contacts of a chunk asks [`completes_at_once`](Self::completes_at_once) and, where
 /// not, stores the chunk's sums and calls [`count_own`](Self::count_own). Then it calls
@@ -48,13 +48,13 @@ impl Clone for HandOver {
 }
 
 impl HandOver {
-    /// For chunks to each of which so many others contribute.
+    /// `contributions` is, for each chunk, the number of other chunks that contribute to it.
     pub fn new(contributions: impl Iterator<Item = u32>) -> Self {
         let counter = |others| DependencyCounter { start: others + 1, ..DependencyCounter::default() };
         Self { counters: contributions.map(counter).collect(), ..Self::default() }
     }
 
-    /// Gets ready for a pass of so many workers. Nothing is left of the last one, even if it panicked half-way.
+    /// Prepares a pass with this many workers. Resets everything, also after a pass that panicked.
     pub fn begin(&mut self, workers: usize) {
         for counter in &self.counters {
             counter.missing.store(counter.start, Ordering::Relaxed);
@@ -87,7 +87,7 @@ impl HandOver {
     }
 
     /// Counts one contribution of a `worker` to a chunk. Answers whether the caller finishes the chunk now; if somebody
-    /// else is to, the chunk is deferred to him.
+    /// else is to, the chunk is deferred to that worker.
     #[inline]
     pub fn count_down(&self, worker: usize, chunk: usize) -> bool {
         let counter = &self.counters[chunk];

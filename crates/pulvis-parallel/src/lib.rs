@@ -1,9 +1,9 @@
 //! Level 1 of the house: how several threads share the work of a step.
 //!
-//! Nothing here knows physics. A [`ThreadPool`](thread_pool::ThreadPool) hands out numbered pieces of work,
+//! Nothing here knows physics. A [`ThreadPool`](thread_pool::ThreadPool) hands out work by number,
 //! [`Shared`](shared::Shared) lets its workers write different parts of one slice, and a
-//! [`HandOver`](hand_over::HandOver) finds out which worker finishes a chunk that several contribute to. All of the
-//! engine's memory that threads share goes through these three.
+//! [`HandOver`](hand_over::HandOver) finds out which worker finishes a chunk that several contribute to. The engine shares memory between threads
+//! through these three only.
 //!
 //! `cargo xtask loom` tests the pool and the hand-over in every order of their operations (up to a number of switches
 //! between threads), `cargo xtask miri` looks for undefined behaviour.

@@ -44,7 +44,7 @@ impl<'a, T> Shared<'a, T> {
         Self { start: slice.as_mut_ptr(), length: slice.len(), slice: PhantomData }
     }
 
-    /// Has an item brought near; any index will do.
+    /// Prefetches an item; any index is allowed.
     #[inline(always)]
     pub fn prefetch(&self, index: usize) {
         pulvis_math::prefetch(self.start.wrapping_add(index));

@@ -34,7 +34,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         "k_c^a",
         Dimension::STIFFNESS,
         Range::Positive,
-        "slope of the attraction at a distance; the reach is f_a/kc_a, inf means none",
+        "slope of the attraction at a distance; its range is f_a/kc_a, inf means none",
     )
     .or_infinite(),
 ];

@@ -32,15 +32,19 @@ impl Moved {
 
     /// Adds the displacement of one more particle, with its skin [m].
     #[inline(always)]
-    fn take_in(&mut self, way: f64, skin: f64) {
-        self.second = self.second.max(way.min(self.longest));
-        self.longest = self.longest.max(way);
-        self.left = self.left.min(skin - way);
+    fn take_in(&mut self, displacement: f64, skin: f64) {
+        self.second = self.second.max(displacement.min(self.longest));
+        self.longest = self.longest.max(displacement);
+        self.left = self.left.min(skin - displacement);
     }
 
-    /// The bounds after all particles have moved by up to `way` [m] more.
-    pub(crate) fn farther(self, way: f64) -> Self {
-        Self { longest: self.longest + way, second: self.second + way, left: self.left - way }
+    /// The bounds after all particles have moved by up to `displacement` [m] more.
+    pub(crate) fn farther(self, displacement: f64) -> Self {
+        Self {
+            longest: self.longest + displacement,
+            second: self.second + displacement,
+            left: self.left - displacement,
+        }
     }
 }
 
@@ -56,16 +60,16 @@ impl Kernel for Survey<'_> {
 
     #[inline(always)]
     fn run<R: Simd8>(self) -> Moved {
-        let (positions, last_places) = self.positions.as_chunks::<8>();
+        let (positions, last_positions) = self.positions.as_chunks::<8>();
         let (listed, last_listed) = self.listed.as_chunks::<8>();
         let (mut longest, mut second, mut left) = (R::zero(), R::zero(), R::splat(f64::INFINITY));
         for (now, before) in positions.iter().zip(listed) {
             let [x, y, z, radius] = columns::<R>(now);
             let [x_before, y_before, z_before, skinned] = columns::<R>(before);
-            let way = way_of(Vector3::new(x - x_before, y - y_before, z - z_before));
-            second = second.max(way.min(longest));
-            longest = longest.max(way);
-            left = left.min(skinned - radius - way);
+            let displacement = length_of(Vector3::new(x - x_before, y - y_before, z - z_before));
+            second = second.max(displacement.min(longest));
+            longest = longest.max(displacement);
+            left = left.min(skinned - radius - displacement);
         }
         let mut moved = Moved::default();
         let [longest, second, left] = [longest.to_array(), second.to_array(), left.to_array()];
@@ -74,8 +78,8 @@ impl Kernel for Survey<'_> {
             moved.take_in(second.0[lane], f64::INFINITY);
             moved.left = moved.left.min(left.0[lane]);
         }
-        for (now, before) in last_places.iter().zip(last_listed) {
-            moved.take_in(way_of(now.vector - before.vector), before.scalar - now.scalar);
+        for (now, before) in last_positions.iter().zip(last_listed) {
+            moved.take_in(length_of(now.vector - before.vector), before.scalar - now.scalar);
         }
         moved
     }
@@ -83,9 +87,9 @@ impl Kernel for Survey<'_> {
 
 /// The length of a displacement; infinite if it is NaN.
 #[inline(always)]
-fn way_of<R: Real>(way: Vector3<R>) -> R {
-    let way = way.norm();
-    R::select(way.lt(R::splat(f64::INFINITY)), way, R::splat(f64::INFINITY))
+fn length_of<R: Real>(displacement: Vector3<R>) -> R {
+    let displacement = displacement.norm();
+    R::select(displacement.lt(R::splat(f64::INFINITY)), displacement, R::splat(f64::INFINITY))
 }
 
 #[inline(always)]
@@ -109,10 +113,12 @@ mod tests {
     use super::*;
 
     /// Particles of radius 1 that have moved so far along x, each in its skin.
-    fn moved(ways_and_skins: &[(f64, f64)]) -> Moved {
+    fn moved(displacements_and_skins: &[(f64, f64)]) -> Moved {
         let at = |x: f64, radius: f64| Packed4::new(Vector3::new(x, 0.0, 0.0), radius);
-        let positions: Vec<Packed4> = ways_and_skins.iter().map(|&(way, _)| at(way, 1.0)).collect();
-        let listed: Vec<Packed4> = ways_and_skins.iter().map(|&(_, skin)| at(0.0, 1.0 + skin)).collect();
+        let positions: Vec<Packed4> =
+            displacements_and_skins.iter().map(|&(displacement, _)| at(displacement, 1.0)).collect();
+        let listed: Vec<Packed4> =
+            displacements_and_skins.iter().map(|&(_, skin)| at(0.0, 1.0 + skin)).collect();
         let sets = InstructionSet::available().into_iter();
         let all: Vec<Moved> =
             sets.map(|set| set.run(Survey { positions: &positions, listed: &listed })).collect();
@@ -121,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn the_two_longest_ways_are_kept_in_any_order_and_the_least_that_is_left() {
+    fn the_two_largest_displacements_are_kept_in_any_order_and_the_smallest_remaining_skin() {
         for length in 3..30 {
             for index in 0..length {
                 let mut all = vec![(-0.5, 1.0); length];

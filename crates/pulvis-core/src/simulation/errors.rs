@@ -55,9 +55,9 @@ pub enum SetupError {
     /// Two bodies can meet for which there is no contact model.
     #[error("no contact model for materials {one} and {other}, which can meet")]
     NoModel {
-        /// Place of a material.
+        /// Index of a material.
         one: u16,
-        /// Place of the other.
+        /// Index of the other material.
         other: u16,
     },
     /// A period is too short for the rule of the nearest image.
@@ -78,7 +78,7 @@ pub enum SetupError {
         "wall {wall} stands across axis {axis}, which is periodic; a plane's normal must have no part along a periodic axis, and a cylinder's axis must be along it"
     )]
     WallAcrossPeriod {
-        /// Place of the wall in the list of walls.
+        /// Index in the list of walls.
         wall: usize,
         /// 0 is x, 1 is y, 2 is z.
         axis: usize,
@@ -86,19 +86,19 @@ pub enum SetupError {
     /// A wall follows a pressure, but its area is unknown.
     #[error("wall {wall} follows a pressure, but the area of its face is unknown")]
     NoArea {
-        /// Place of the wall in the list of walls.
+        /// Index in the list of walls.
         wall: usize,
     },
     /// A wall that is no plane is to follow a pressure.
     #[error("wall {wall} follows a pressure, but is no plane")]
     ServoNeedsPlane {
-        /// Place of the wall in the list of walls.
+        /// Index in the list of walls.
         wall: usize,
     },
     /// A wall without an axis is to rotate.
     #[error("wall {wall} rotates, but its shape has no axis")]
     RotationNeedsAxis {
-        /// Place of the wall in the list of walls.
+        /// Index in the list of walls.
         wall: usize,
     },
     /// A wall's shape cannot be.

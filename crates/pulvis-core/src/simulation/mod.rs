@@ -1,4 +1,4 @@
-//! Many bodies, one step after another.
+//! A simulation of many bodies.
 
 mod checks;
 mod columns;
@@ -28,7 +28,7 @@ use crate::walls::{FaceArea, Shape, Wall, WallFeature, WallForce, WallMotion, Wa
 use pulvis_boundary::Background;
 use pulvis_boundary::Domain;
 
-/// What a simulation starts from.
+/// The initial state of a simulation.
 #[derive(Clone, Debug)]
 pub struct Setup {
     /// The particles; their ids are their indices in this list.
@@ -60,16 +60,16 @@ pub struct Simulation {
     step: u64,
     time: f64,
     contacts: ContactTable,
-    /// What contacts remember while they are listed anew.
+    /// Memory of the contacts during a rebuild.
     memory: MemoryStore,
-    /// The row that each particle had before it was put into the present order.
+    /// The row of each particle before it was put into the present order.
     former_rows: Vec<u32>,
     pool: ThreadPool,
     instructions: InstructionSet,
     accounting: bool,
     /// Whether all laws are called through pointers.
     pointers: bool,
-    /// Where the time goes, if anybody wants to know; up to the last list of candidates.
+    /// Time spent in the parts of a step up to the last rebuild, if it is measured.
     phases: Option<Phases>,
     /// The materials of all particles, each once.
     materials: Vec<MaterialIndex>,
@@ -88,26 +88,26 @@ pub struct Simulation {
     rebuilds: u64,
 }
 
-/// What comes out of the integration of a chunk of rows.
+/// The results of the integration of a chunk of rows.
 #[derive(Clone, Copy, Debug, Default)]
 struct Outcome {
-    /// What the last kicks gave.
+    /// Results of the last kicks.
     kicked: Kicked,
-    /// How far the rows have moved since the candidates were listed, at the most [m].
+    /// Upper bounds of the displacements since the last rebuild [m].
     moved: Moved,
-    /// Time spent since the candidates were listed [s].
+    /// Time spent since the last rebuild [s].
     seconds: f64,
 }
 
 impl Outcome {
-    /// The rows have drifted over a `time_step` [s].
+    /// Extends the bounds after the rows have drifted over a `time_step` [s].
     fn drift_on(&mut self, time_step: f64) {
         self.moved = self.moved.farther(self.kicked.fastest * time_step);
     }
 }
 
-/// Contacts keep 32-bit indices of rows, counted in numbers of which a packed vector has four. Remembered contacts,
-/// some three a particle, then still have 32-bit numbers; whatever else is counted over contacts has 64.
+/// Contacts keep rows as 32-bit indices of numbers, of which a packed vector has four. Records of contact memory, some three
+/// per particle, then still have 32-bit indices; all other counts of contacts have 64 bits.
 const MOST_PARTICLES: usize = u32::MAX as usize / 4;
 
 fn check_count(found: usize) -> Result<(), SetupError> {
@@ -124,8 +124,8 @@ impl Simulation {
     /// Sets the simulation up and computes the forces of its initial state.
     ///
     /// # Errors
-    /// Numbers that no particle, wall, gravity or drag can have; materials that can meet without a contact model; walls
-    /// across a periodic direction; servo walls without an area; periods that are too short.
+    /// Invalid numbers of particles, walls, gravity or drag; materials that can meet without a contact model; walls across a
+    /// periodic direction; servo walls without an area; periods that are too short.
     pub fn new(setup: Setup) -> Result<Self, SetupError> {
         checks::check_setup(&setup)?;
         let Setup { particles, interactions, walls, domain, background, time_step } = setup;
@@ -154,7 +154,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// At time zero, at rest, with nothing listed, checked or computed yet.
+    /// At time zero, without a neighbour list; nothing is checked or computed yet.
     fn without_list(
         particles: Particles,
         interactions: Interactions,
@@ -283,7 +283,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Two centres farther apart than this cannot act on each other before the next list [m].
+    /// Two centres farther apart than this cannot act on each other before the next rebuild [m].
     fn search_radius(&self) -> f64 {
         let largest = self.particles.radius.iter().copied().fold(0.0, max_or_nan);
         2.0 * largest + self.interactions.longest_range() + 2.0 * self.skin.thickest
@@ -299,7 +299,7 @@ impl Simulation {
         &self.particles
     }
 
-    /// The walls as they stand now.
+    /// The walls in their present state.
     pub fn walls(&self) -> &[Wall] {
         &self.walls
     }
@@ -344,7 +344,7 @@ impl Simulation {
         self.step
     }
 
-    /// Where the time goes since [`watch_phases`](Self::watch_phases) was called, `None` if it was not.
+    /// Time spent in the parts of a step since [`watch_phases`](Self::watch_phases) was called; `None` if it was not.
     pub fn phases(&self) -> Option<Phases> {
         let mut sum = self.phases?;
         for (chunk, outcome) in self.contacts.chunks().iter().zip(&self.outcomes) {
@@ -354,14 +354,14 @@ impl Simulation {
         Some(sum)
     }
 
-    /// How often the list of candidates was renewed.
+    /// Number of rebuilds of the neighbour list.
     pub fn rebuilds(&self) -> u64 {
         self.rebuilds
     }
 
-    /// Memory of particles, candidates and contact memory [byte].
+    /// Memory of particles, neighbour list and contact memory [byte].
     pub fn memory_size(&self) -> usize {
-        // The skin keeps one more packed vector for each particle, the list the row that it had before.
+        // The skin has one more packed vector per particle, and the list its former row.
         let columns = self.particles.columns().len() * size_of::<f64>();
         let row = Particles::BYTES + size_of::<Packed4>() + size_of::<u32>() + columns;
         let rows = self.particles.len() * row;
@@ -370,7 +370,7 @@ impl Simulation {
             + self.memory.memory_size()
     }
 
-    /// Candidate contacts in the list.
+    /// Number of pairs in the neighbour list.
     pub fn candidates(&self) -> usize {
         self.contacts.candidates()
     }

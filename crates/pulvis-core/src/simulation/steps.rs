@@ -23,9 +23,9 @@ impl Simulation {
         self.advance(1)
     }
 
-    /// Time steps: kick and drift, walls, neighbours, forces, kick, ledger. The same as so many single
-    /// [steps](Self::step), but faster: the second kick of a step and the first one of the next are
-    /// made in one go, while the particles are in the cache.
+    /// Takes time steps: kick and drift, walls, neighbours, forces, kick, ledger. The result is that of as many single
+    /// [steps](Self::step), but faster: the second kick of a step and the first kick of the next are made together, while the
+    /// particles are in the cache.
     ///
     /// # Errors
     /// The state is no longer one that the system can have, or one of the [limits](Self::set_limits) is exceeded. The
@@ -92,8 +92,9 @@ impl Simulation {
         Step { time_step, predicts_angular_velocities: turning || self.background.has_drag() }
     }
 
-    /// Lists the candidates anew if particles have moved too far; otherwise tells the contacts by how much
-    /// gaps can have closed.
+    /// Rebuilds the neighbour list if a body has left its skin. Otherwise tells the contacts by how much gaps can have closed.
+    /// Displacements are measured every few steps, and again before a rebuild; in between they are bounded by the maximum
+    /// speed.
     fn renew_if_outdated(&mut self) -> Result<(), StepError> {
         let walls = self.skin.moved_walls(&self.walls);
         let surveyed = self.skin.count_step();
@@ -116,12 +117,12 @@ impl Simulation {
         self.check_overlaps()
     }
 
-    /// What is left of the skin of whoever has least left of it, at the least [m].
+    /// Lower bound of the remaining skin of any particle [m].
     fn left_of_skins(&self) -> f64 {
         self.outcomes.iter().map(|outcome| outcome.moved.left).fold(f64::INFINITY, min_or_nan)
     }
 
-    /// Looks how far the particles have really moved.
+    /// Measures the displacements of all particles since the last rebuild.
     fn survey(&mut self) {
         let (chunks, skin, positions) = (self.contacts.chunks(), &self.skin, &self.particles.position);
         let instructions = self.instructions;
@@ -159,10 +160,10 @@ impl Simulation {
         }
     }
 
-    /// Forces and torques of all contacts and of the background, and the second half kick; with
-    /// `onwards` also the first half kick and the drift of the next step. `at_rest` no time has passed.
+    /// Forces and torques of all contacts and of the background, and the second half kick; with `onwards` also the first half
+    /// kick and the drift of the next step. With `at_rest`, no time has passed since the last forces.
     ///
-    /// Answers with the drag's power [W]; each wall's force on the particles is left in its index.
+    /// Returns the power of the drag [W]. The force of each wall on the particles is stored in `on_particles`.
     fn forces_and_kick(&mut self, at_rest: bool, onwards: bool) -> f64 {
         self.walls_now.clear();
         for (wall, state) in self.walls.iter().zip(&self.wall_states) {
@@ -191,7 +192,7 @@ impl Simulation {
             keep: !onwards,
         };
         self.contacts.sweep(&sweep, &self.pool, |number, rows, forces_and_torques| {
-            // SAFETY: each chunk is finished once, and nobody reads its rows any more.
+            // SAFETY: each chunk is finished once, and no thread reads its rows any more.
             unsafe {
                 let outcome = outcomes.get_mut(number);
                 let mut clock = Stopwatch::start(advance.timed);
@@ -213,8 +214,8 @@ impl Simulation {
         self.outcomes.iter().map(|outcome| outcome.kicked.power).sum()
     }
 
-    /// Forces of the present state, without a step having led here; switches nothing in memory but
-    /// what the laws themselves would.
+    /// Forces of the present state without a step. The memory of contacts changes only as the laws change it at a step of zero
+    /// duration.
     pub(super) fn evaluate_at_rest(&mut self) {
         let particles = &mut self.particles;
         for (predicted, now) in particles.velocity_predicted.iter_mut().zip(&particles.velocity) {
@@ -225,7 +226,7 @@ impl Simulation {
         {
             predicted.vector = now.vector;
         }
-        // No block is passed over: whatever was switched may act at once.
+        // No block is skipped: after a switch, any pair may act at once.
         self.contacts.close_gaps(|_| Moved::ANYWHERE, f64::INFINITY);
         let background_power = self.forces_and_kick(true, false);
         self.running.take_in(self.contacts.energies(), background_power, 0.0);

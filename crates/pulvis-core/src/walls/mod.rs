@@ -63,7 +63,7 @@ impl Extent {
 pub struct Wall {
     /// Name, for people.
     pub name: String,
-    /// Place in the list of materials.
+    /// Index in the list of materials.
     pub material: MaterialIndex,
     /// What its surface looks like.
     pub shape: WallShape,
@@ -115,7 +115,7 @@ impl Wall {
         self.plane_normal().unwrap_or(Vector3::zero())
     }
 
-    /// Place of a plane along its normal [m]; other shapes have none.
+    /// Position of a plane along its normal [m]; other shapes have none.
     pub fn offset(&self) -> Option<f64> {
         self.plane_normal().map(|normal| self.point.dot(normal))
     }

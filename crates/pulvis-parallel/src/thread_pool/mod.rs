@@ -1,4 +1,4 @@
-//! Who does the work: this thread, or several.
+//! A pool of threads that share the work of parallel regions.
 
 mod workers;
 
@@ -11,10 +11,9 @@ use workers::Workers;
 
 /// One thread, or several that stay ready between the regions of a step.
 ///
-/// A step of a small system lasts some ten microseconds: threads that sleep between regions would be
-/// woken for as long as they work. These wait actively, and sleep only when nothing has come for a while.
-/// The results do not depend on how many there are: work is cut into the same chunks for any number of
-/// threads, and sums are taken chunk by chunk in a fixed order.
+/// A step of a small system takes some ten microseconds, about as long as it takes to wake a sleeping thread. So the
+/// threads of the pool wait actively, and sleep only after a longer pause. Results do not depend on the number of threads:
+/// work is cut into the same chunks for any number, and sums are taken chunk by chunk in a fixed order.
 #[derive(Clone, Debug, Default)]
 pub struct ThreadPool {
     workers: Option<Arc<Workers>>,

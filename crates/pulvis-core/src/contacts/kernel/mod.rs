@@ -65,8 +65,8 @@ pub(crate) struct Advance {
 /// Computes a group's contacts, particle pairs or contacts with a wall, and adds their forces and torques to `sums`.
 ///
 /// # Safety
-/// The group's rows lie within the columns of `moving`, its walls within `walls`, its indices of sums within `sums`, and nobody
-/// writes those rows meanwhile.
+/// The group's rows lie within the columns of `moving`, its walls within `walls`, and its slots within `sums`; no other
+/// thread writes those rows meanwhile.
 pub(crate) unsafe fn sweep(
     group: &mut ContactGroup,
     sums: &mut [ForceTorque],
