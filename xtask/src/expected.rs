@@ -20,13 +20,15 @@ pub struct Demand {
     pub column: String,
     /// Which rows count: those of the stage with this number, from 1; all where `None`.
     pub stage: Option<f64>,
-    /// Which of the numbers: `first`, `last`, `minimum` or `maximum`.
+    /// What of the numbers: `first`, `last`, `minimum`, `maximum`, `mean`, or `change`, the last one less the first one.
     pub pick: &'static str,
+    /// The column by the same of which it is divided, if any.
+    pub over: Option<String>,
     /// It must lie between these two.
     pub bounds: [f64; 2],
 }
 
-const PICKS: [&str; 4] = ["first", "last", "minimum", "maximum"];
+const PICKS: [&str; 6] = ["first", "last", "minimum", "maximum", "mean", "change"];
 
 /// Reads what the collisions of an experiment must give; tests of `pulvis-lab` read the rest.
 pub fn collisions(path: &Path) -> Outcome<Collisions> {
@@ -69,6 +71,7 @@ fn demand(mut table: TableReader<'_>) -> Result<Demand, Reported> {
         column: table.required("column", Text)?.to_owned(),
         stage: table.optional("stage", number)?,
         pick: table.required("pick", Name(&PICKS))?,
+        over: table.optional("over", Text)?,
         bounds: [table.required("least", number)?, table.required("most", number)?],
     };
     table.finish();

@@ -114,22 +114,41 @@ fn run_stages(pulvis: &Path, folder: &Path, scenario: &Path) -> Outcome {
 }
 
 fn meets(table: &Table, demand: &Demand) -> Outcome {
-    let Demand { column, stage, pick, bounds: [least, most] } = demand;
-    let (values, stages) = (table.numbers(column)?, table.numbers("stage")?);
-    let counts = |of: f64| stage.is_none_or(|stage| (stage - of).abs() < 0.5);
-    let mut picked = values.into_iter().zip(stages).filter(|&(_, of)| counts(of)).map(|(value, _)| value);
-    let value = match *pick {
-        "first" => picked.next(),
-        "last" => picked.next_back(),
-        "minimum" => picked.reduce(f64::min),
-        _ => picked.reduce(f64::max),
-    };
-    let value = value.ok_or_else(|| format!("no row of `{column}` in stage {stage:?}"))?;
+    let Demand { column, stage, pick, over, bounds: [least, most] } = demand;
+    let mut value = picked(table, column, *stage, pick)?;
+    if let Some(over) = over {
+        value /= picked(table, over, *stage, pick)?;
+    }
+    // Fails for NaN.
     if value >= *least && value <= *most {
         return Ok(());
     }
     let of = stage.map_or(String::new(), |stage| format!(" of stage {stage}"));
-    Err(format!("{pick} {column}{of} is {value}, expected {least} to {most}"))
+    let over = over.as_ref().map_or(String::new(), |over| format!(" over that of {over}"));
+    Err(format!("{pick} {column}{of}{over} is {value}, expected {least} to {most}"))
+}
+
+/// What a demand picks of a column, of the rows of a stage or of all.
+fn picked(table: &Table, column: &str, stage: Option<f64>, pick: &str) -> Outcome<f64> {
+    let stages = table.numbers("stage")?;
+    let counts = |of: f64| stage.is_none_or(|stage| (stage - of).abs() < 0.5);
+    let rows = table.numbers(column)?.into_iter().zip(stages).filter(|&(_, of)| counts(of));
+    let values: Vec<f64> = rows.map(|(value, _)| value).collect();
+    let [first, .., last] = values[..] else {
+        return Err(format!("less than two rows of `{column}` in stage {stage:?}"));
+    };
+    // A minimum or maximum would pass over NaN.
+    if values.iter().any(|value| value.is_nan()) {
+        return Ok(f64::NAN);
+    }
+    Ok(match pick {
+        "first" => first,
+        "last" => last,
+        "minimum" => values.into_iter().fold(f64::INFINITY, f64::min),
+        "maximum" => values.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        "mean" => values.iter().sum::<f64>() / values.len() as f64,
+        _ => last - first,
+    })
 }
 
 fn name(folder: &Path) -> String {

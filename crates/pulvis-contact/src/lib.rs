@@ -50,4 +50,5 @@ pub use normal::{
 };
 pub use pair::Pair;
 pub use response::ContactResponse;
+pub use time_scales::Partner;
 pub use viscosity::Viscosity;

@@ -6,17 +6,52 @@ use crate::friction::Friction;
 use crate::model::ContactModel;
 use crate::pair::Pair;
 
+/// What a sphere meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Partner {
+    /// Another sphere.
+    Sphere {
+        /// Its mass [kg].
+        mass: f64,
+        /// Its radius [m].
+        radius: f64,
+    },
+    /// A wall that does not give way.
+    Wall {
+        /// Mean of the principal curvatures of its surface, positive where it bulges towards the sphere [1/m].
+        mean_curvature: f64,
+    },
+}
+
+/// A mass [kg] and a radius [m], or a plane wall.
+impl From<Option<(f64, f64)>> for Partner {
+    fn from(sphere: Option<(f64, f64)>) -> Self {
+        sphere.map_or(Self::Wall { mean_curvature: 0.0 }, |(mass, radius)| Self::Sphere { mass, radius })
+    }
+}
+
+impl Partner {
+    /// The pair of a sphere with mass [kg] and radius [m] and this partner.
+    fn pair_with(self, (mass_i, radius_i): (f64, f64)) -> Pair {
+        match self {
+            Self::Sphere { mass, radius } => Pair::spheres(mass_i, mass, radius_i, radius),
+            Self::Wall { mean_curvature } => Pair::from_sums(1.0 / mass_i, 1.0 / radius_i + mean_curvature),
+        }
+    }
+}
+
 impl ContactModel {
     /// Shortest duration [s] of any motion that the contact can make: π over its highest frequency,
-    /// over all branches and springs, for bodies with masses [kg] and radii [m] (`None`: a wall). Laws whose
+    /// over all branches and springs, for a sphere with mass [kg] and radius [m] and what it meets. Laws whose
     /// stiffness has no bound take it from the loading that is expected.
     ///
     /// Squares of the frequencies: k/m_r along the normal; k_o L² (1/I_i + 1/I_j) of torsion; and the
     /// larger one of the two modes into which sliding, k_t (1/m_r + a_i²/I_i + a_j²/I_j), and rolling,
     /// k_r L² (1/I_i + 1/I_j), combine where a_i/I_i differs from a_j/I_j. Dashpots count with their
     /// rates γ/m_r and so on. Solid spheres, I = 2/5 m a².
-    pub fn shortest_contact_time(&self, body_i: (f64, f64), body_j: Option<(f64, f64)>) -> f64 {
-        let pair = pair_of(body_i, body_j);
+    pub fn shortest_contact_time(&self, body_i: (f64, f64), body_j: impl Into<Partner>) -> f64 {
+        let body_j = body_j.into();
+        let pair = body_j.pair_with(body_i);
         let modes = Modes::new(&pair, body_i, body_j);
         let laws = &self.laws;
         let radius = self.normal.expected_contact_radius(&pair, &laws.expected);
@@ -33,20 +68,13 @@ impl ContactModel {
     }
 
     /// The steepest slope [N/m] of the force along the normal over all branches, and the largest coefficient of its
-    /// dashpots [kg/s], for bodies with masses [kg] and radii [m] (`None`: a wall). Laws whose stiffness has no bound
+    /// dashpots [kg/s], for a sphere with mass [kg] and radius [m] and what it meets. Laws whose stiffness has no bound
     /// take it from the loading that is expected.
-    pub fn steepest_normal(&self, body_i: (f64, f64), body_j: Option<(f64, f64)>) -> (f64, f64) {
-        let pair = pair_of(body_i, body_j);
+    pub fn steepest_normal(&self, body_i: (f64, f64), body_j: impl Into<Partner>) -> (f64, f64) {
+        let pair = body_j.into().pair_with(body_i);
         let elastic = self.normal.max_stiffness(&pair, &self.laws.expected);
         let dashpot = self.normal.dashpot(&pair) + self.laws.viscosity.largest_coefficient(&pair, elastic);
         (elastic.max(self.laws.noncontact.max_stiffness(&pair)), dashpot)
-    }
-}
-
-fn pair_of((mass_i, radius_i): (f64, f64), body_j: Option<(f64, f64)>) -> Pair {
-    match body_j {
-        Some((mass_j, radius_j)) => Pair::spheres(mass_i, mass_j, radius_i, radius_j),
-        None => Pair::wall(mass_i, radius_i),
     }
 }
 
@@ -61,11 +89,14 @@ struct Modes {
 }
 
 impl Modes {
-    fn new(pair: &Pair, body_i: (f64, f64), body_j: Option<(f64, f64)>) -> Self {
+    fn new(pair: &Pair, body_i: (f64, f64), body_j: Partner) -> Self {
         // A wall has a_j = 0 and 1/I_j = 0.
         let inverse_inertia = |(mass, radius): (f64, f64)| 1.0 / (0.4 * mass * radius * radius);
         let (radius_i, turn_i) = (body_i.1, inverse_inertia(body_i));
-        let (radius_j, turn_j) = body_j.map_or((0.0, 0.0), |body| (body.1, inverse_inertia(body)));
+        let (radius_j, turn_j) = match body_j {
+            Partner::Sphere { mass, radius } => (radius, inverse_inertia((mass, radius))),
+            Partner::Wall { .. } => (0.0, 0.0),
+        };
         let lever = pair.harmonic_radius();
         Self {
             sliding: pair.inverse_reduced_mass()

@@ -283,6 +283,12 @@ impl Particles {
         self.mass.iter().sum()
     }
 
+    /// Centre of mass [m], of positions within the domain along periodic directions; NaN without particles.
+    pub fn centre_of_mass(&self) -> Vector3 {
+        let moment = self.mass.iter().zip(&self.position).map(|(&mass, position)| position.vector * mass);
+        moment.fold(Vector3::zero(), |sum, moment| sum + moment) * (1.0 / self.total_mass())
+    }
+
     /// Total volume of the spheres, overlaps counted twice [m³].
     pub fn total_volume(&self) -> f64 {
         self.radius.iter().map(|&radius| 4.0 / 3.0 * std::f64::consts::PI * elementary::powi(radius, 3)).sum()

@@ -14,8 +14,9 @@ use std::f64::consts::PI;
 
 use crate::contacts::Interactions;
 use crate::particles::{MaterialIndex, Particle};
-use crate::walls::Wall;
+use crate::walls::{Shape, Wall};
 use pulvis_boundary::Background;
+use pulvis_contact::Partner;
 
 /// The shortest motion that a system can make: what the time step has to resolve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -189,10 +190,13 @@ pub fn shortest_contact(
                 }
             }
         }
-        for partner in walls.iter().filter(|wall| wall.present).map(|wall| wall.material) {
+        for wall in walls.iter().filter(|wall| wall.present) {
+            let partner = wall.material;
             let Some(model) = interactions.get(material, partner) else { continue };
+            // Where a wall is most hollow, the effective radius is largest and Hertzian contacts are stiffest.
+            let surface = Partner::Wall { mean_curvature: wall.shape.least_mean_curvature() };
             for &body in bodies {
-                let duration = model.shortest_contact_time(body, None);
+                let duration = model.shortest_contact_time(body, surface);
                 consider(ShortestContact { duration, material, partner, at_wall: true });
             }
         }
@@ -225,11 +229,11 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
     use pulvis_contact::viscosity::{Constant, Viscosity};
-    use pulvis_contact::{ContactModel, Linear};
+    use pulvis_contact::{ContactModel, Hertz, Linear};
     use pulvis_math::Vector3;
 
     use super::*;
-    use crate::walls::{FaceArea, PressureRamp, Servo, WallMotion};
+    use crate::walls::{Cylinder, CylinderSide, FaceArea, Plane, PressureRamp, Servo, WallMotion, WallShape};
     use pulvis_math::elementary;
 
     fn sphere(material: MaterialIndex, radius: f64) -> Particle {
@@ -300,6 +304,32 @@ mod tests {
             (MotionKind::RotationalDrag, PI / (2.0 * (2.5 / light)))
         );
         assert!(matches!(motion(Background::default()).kind, MotionKind::Contact(_)));
+    }
+
+    #[test]
+    fn hertzian_contacts_in_a_drum_are_those_of_the_larger_sphere_that_fits_a_plane_as_well() {
+        let mut interactions = Interactions::new(2);
+        interactions.set(0, 1, ContactModel::frictionless(Hertz { effective_modulus: 1e7 }));
+        let body = sphere(0, 1e-3);
+        let time_at = |shape: WallShape, body: Particle| {
+            let wall = Wall::of_shape("wall", 1, Vector3::zero(), shape);
+            shortest_contact(&[body], &interactions, &[wall]).unwrap()
+        };
+        let (axis, radius) = (Vector3::new(0.0, 1.0, 0.0), 1.25e-3);
+        let plane = WallShape::from(Plane { normal: axis });
+        for (side, sign) in [(CylinderSide::Inside, -1.0), (CylinderSide::Outside, 1.0)] {
+            let found = time_at(Cylinder { axis, radius, side }.into(), body);
+            // 1/a' = 1/a ∓ 1/(2R), with the same mass.
+            let alike = Particle { radius: 1.0 / (1e3 + sign * 0.5 / radius), ..body };
+            let expected = time_at(plane, alike);
+            assert!(
+                (found.duration / expected.duration - 1.0).abs() < 1e-14,
+                "{side:?}: {found:?} {expected:?}"
+            );
+            // Duration falls as stiffness rises.
+            let flat = time_at(plane, body).duration;
+            assert!((found.duration < 0.9 * flat) == (side == CylinderSide::Inside), "{found:?} {flat}");
+        }
     }
 
     #[test]

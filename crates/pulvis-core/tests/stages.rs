@@ -119,8 +119,10 @@ fn contacts_keep_their_flattening_through_a_change_of_adhesion() {
     // Pressed to 0.05 radii and let go: without memory it would be a virgin contact.
     let deepest = |simulation: &Simulation| {
         let mut memory = 0.0_f64;
-        simulation
-            .for_each_contact(&mut |view| memory = memory.max(view.memory.first().copied().unwrap_or(0.0)));
+        simulation.for_each_contact(&mut |view| {
+            let column = view.layout.column("overlap_max");
+            memory = memory.max(column.map_or(0.0, |column| view.memory[column]));
+        });
         memory
     };
     let mut simulation = powder(viscous_luding());

@@ -90,7 +90,8 @@ walls.z-high = { control = "velocity", velocity = ["0 m/s", "0 m/s", "-1 m/s"] }
 #[test]
 fn a_ledger_that_does_not_close_stops_the_run() {
     let tolerance = ("[output]", "[limits]\nenergy_error = 1e-6\n\n[output]");
-    let scenario = tablet(&[tolerance]);
+    let every_tenth_step = ("{ interval = \"1 ns\" }", "{ steps = 10 }");
+    let scenario = tablet(&[tolerance, every_tenth_step]);
     let folder = tempfile::tempdir().unwrap();
     let alarm = alarm(&scenario, folder.path());
     let Alarm::EnergyError { error, most } = alarm else { panic!("{alarm}") };

@@ -178,14 +178,20 @@ fn a_folder_in_use_is_refused_and_force_writes_over_the_run_alone() {
     };
     start(false).unwrap();
     fs::write(folder.path().join("notes.txt"), "mine").unwrap();
-    fs::write(folder.path().join("particles_0009.vtp"), "of a longer run").unwrap();
+    fs::write(folder.path().join("particles_0009.vtp"), "of another run").unwrap();
     let before = bytes(folder.path());
     let refused = start(false).unwrap_err();
     assert!(refused.is_bad_input());
-    assert!(matches!(refused, RunError::Prepare(PrepareError::FolderInUse { .. })), "{refused}");
+    assert!(matches!(refused, RunError::Prepare(PrepareError::RunInFolder { .. })), "{refused}");
     assert_eq!(bytes(folder.path()), before, "nothing was touched");
+    let in_the_way = start(true).unwrap_err();
+    assert!(
+        in_the_way.is_bad_input() && in_the_way.to_string().contains("particles_0009.vtp"),
+        "{in_the_way}"
+    );
+    assert_eq!(bytes(folder.path()), before, "nothing was touched");
+    fs::remove_file(folder.path().join("particles_0009.vtp")).unwrap();
     start(true).unwrap();
-    assert!(!folder.path().join("particles_0009.vtp").exists());
     assert_eq!(fs::read_to_string(folder.path().join("notes.txt")).unwrap(), "mine");
 }
 

@@ -68,6 +68,10 @@ impl Shape for Cylinder {
         }
     }
 
+    fn least_mean_curvature(&self) -> f64 {
+        self.side.sign() * (0.5 / self.radius)
+    }
+
     #[inline(always)]
     fn normal_rate<R: Real>(&self, surface: &Surface<R>, velocity: Vector3<R>) -> Option<Vector3<R>> {
         // Only what goes around the axis turns the normal.

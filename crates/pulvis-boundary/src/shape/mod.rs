@@ -30,6 +30,10 @@ pub trait Shape: Copy {
     /// How the surface lies to `centre` [m].
     fn surface<R: Real>(&self, point: Vector3, centre: Vector3<R>) -> Surface<R>;
 
+    /// The least mean curvature of the surface [1/m], see [`Surface::mean_curvature`]: contacts there have the largest
+    /// effective radius.
+    fn least_mean_curvature(&self) -> f64;
+
     /// How fast the normal turns when the centre moves with `velocity` against the wall's reference point
     /// [1/s]; `None` where it never turns. A rotation of the wall does not turn it, because walls rotate about
     /// axes of symmetry only.
@@ -79,6 +83,9 @@ macro_rules! wall_shapes {
             #[inline(always)]
             fn surface<R: Real>(&self, point: Vector3, centre: Vector3<R>) -> Surface<R> {
                 match self { $(Self::$shape(shape) => shape.surface(point, centre),)* }
+            }
+            fn least_mean_curvature(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.least_mean_curvature(),)* }
             }
             #[inline(always)]
             fn normal_rate<R: Real>(&self, surface: &Surface<R>, velocity: Vector3<R>) -> Option<Vector3<R>> {

@@ -23,6 +23,10 @@ impl Shape for Plane {
         }
     }
 
+    fn least_mean_curvature(&self) -> f64 {
+        0.0
+    }
+
     #[inline(always)]
     fn normal_rate<R: Real>(&self, _surface: &Surface<R>, _velocity: Vector3<R>) -> Option<Vector3<R>> {
         None

@@ -88,6 +88,8 @@ fn eight_spheres_at_a_time_see_the_surface_that_each_sees_alone() {
             assert_eq!(all.mean_curvature.lane(lane), alone.mean_curvature);
             let rate = shape.normal_rate(&alone, Vector3::new(0.3, 0.2, -0.9));
             assert_eq!(rates.map(|rates| rates.lane(lane)), rate);
+            // Planes and cylinders are curved alike everywhere.
+            assert_eq!(alone.mean_curvature, shape.least_mean_curvature());
         }
     }
 }

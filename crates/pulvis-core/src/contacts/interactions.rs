@@ -88,12 +88,18 @@ impl Interactions {
         self.models.iter().flatten()
     }
 
-    /// Sets the present materials: those of particles, with the largest radius of each [m], and those of walls.
-    pub(crate) fn fit(&mut self, largest_radii: &[(MaterialIndex, f64)], walls: &[MaterialIndex]) {
+    /// Sets the present materials: those of particles, with the largest radius of each [m], and those of walls, with the
+    /// least mean curvature of each wall [1/m].
+    pub(crate) fn fit(&mut self, largest_radii: &[(MaterialIndex, f64)], walls: &[(MaterialIndex, f64)]) {
         let radius = |material: usize| {
             largest_radii.iter().find(|(known, _)| usize::from(*known) == material).map(|(_, radius)| *radius)
         };
-        let of_wall = |material: usize| walls.iter().any(|known| usize::from(*known) == material);
+        let of_wall = |material: usize| walls.iter().any(|(known, _)| usize::from(*known) == material);
+        // A plane where nothing is hollow.
+        let least_curvature = |pair: [usize; 2]| {
+            let of_pair = walls.iter().filter(|(known, _)| pair.contains(&usize::from(*known)));
+            of_pair.map(|(_, curvature)| *curvature).fold(0.0, f64::min)
+        };
         let there: Vec<usize> =
             (0..self.materials).filter(|&material| radius(material).is_some() || of_wall(material)).collect();
         self.groups.clear();
@@ -106,7 +112,9 @@ impl Interactions {
                 }
                 let pair = low * self.materials + high;
                 self.group_of[pair] = self.groups.len() as u32;
-                let range = self.models[pair].as_ref().map_or(0.0, |model| longest_range(model, radii));
+                let curvature = least_curvature([low, high]);
+                let range =
+                    self.models[pair].as_ref().map_or(0.0, |model| longest_range(model, radii, curvature));
                 self.groups.push(Group { pair, range });
             }
         }
@@ -124,10 +132,12 @@ impl Interactions {
 }
 
 /// How far beyond touching a model acts [m] between bodies of two materials with these largest radii [m], `None` for
-/// walls alone. Either material may be that of a wall, too, at which the effective radius is largest.
-fn longest_range(model: &ContactModel, [one, other]: [Option<f64>; 2]) -> f64 {
+/// walls alone. Either material may be that of a wall, too, at which the effective radius is largest: where the mean
+/// curvature [1/m] is least.
+fn longest_range(model: &ContactModel, [one, other]: [Option<f64>; 2], curvature: f64) -> f64 {
     let between = one.zip(other).map(|(one, other)| Pair::spheres(1.0, 1.0, one, other));
-    let at_walls = [one, other].into_iter().flatten().map(|radius| Pair::wall(1.0, radius));
+    let at_walls =
+        [one, other].into_iter().flatten().map(|radius| Pair::from_sums(1.0, 1.0 / radius + curvature));
     at_walls.chain(between).map(|pair| model.interaction_range(&pair)).fold(0.0, max_or_nan)
 }
 
@@ -135,7 +145,8 @@ fn longest_range(model: &ContactModel, [one, other]: [Option<f64>; 2]) -> f64 {
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-    use pulvis_contact::Linear;
+    use pulvis_contact::{Jkr, Linear};
+    use pulvis_math::elementary;
 
     use super::*;
 
@@ -153,5 +164,24 @@ mod tests {
         assert_eq!(interactions.get(5, 0), Some(&model(2.0)));
         assert_eq!(interactions.get(2, 1), Some(&model(1.0)));
         assert_eq!(interactions.get(0, 0), None);
+    }
+
+    #[test]
+    fn adhesion_reaches_farther_from_hollow_walls_and_no_nearer_than_from_planes() {
+        let mut interactions = Interactions::new(2);
+        interactions.set(0, 1, ContactModel::frictionless(Jkr::new(1e7, 0.1)));
+        let mut range = |curvatures: &[f64]| {
+            let walls: Vec<(MaterialIndex, f64)> =
+                curvatures.iter().map(|&curvature| (1, curvature)).collect();
+            interactions.fit(&[(0, 1e-3)], &walls);
+            interactions.range(interactions.group(0, 1))
+        };
+        let plane = range(&[0.0]);
+        assert!(plane > 0.0);
+        // JKR contacts end at a distance that grows with the cubic root of the effective radius, here 1/(1 − 0.2) times
+        // that at a plane.
+        let drum = range(&[0.0, -200.0]);
+        assert!((drum / plane - elementary::cbrt(1.0 / 0.8)).abs() < 1e-14, "{drum} {plane}");
+        assert_eq!(range(&[400.0, 0.0]), plane);
     }
 }

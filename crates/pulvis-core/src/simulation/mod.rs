@@ -212,7 +212,8 @@ impl Simulation {
                 largest[index].1 = largest[index].1.max(radius);
             }
         }
-        let walls: Vec<MaterialIndex> = self.walls.iter().map(|wall| wall.material).collect();
+        let walls: Vec<(MaterialIndex, f64)> =
+            self.walls.iter().map(|wall| (wall.material, wall.shape.least_mean_curvature())).collect();
         self.interactions.fit(&largest, &walls);
     }
 

@@ -7,7 +7,7 @@ use super::walls::Wall;
 use crate::context::Reported;
 use crate::problem::Problem;
 use crate::reader::TableReader;
-use pulvis_boundary::{Cuboid, Domain, WallShape};
+use pulvis_boundary::{Cuboid, Domain};
 use pulvis_math::Vector3;
 
 /// Checks every group: centres lie on the inner side of all walls, and inside the domain along periodic
@@ -98,11 +98,7 @@ fn behind_wall(point: &Point, wall: &Wall) -> Problem {
         rounded(-wall.distance(*at)),
         wall.name
     );
-    let expected = match &wall.shape {
-        WallShape::Plane(_) => "particles on the side to which the wall's normal points".to_owned(),
-        WallShape::Cylinder(cylinder) => format!("particles {} the cylinder", cylinder.side.name()),
-    };
-    Problem::rule(found, expected)
+    Problem::rule(found, wall.where_particles_are())
 }
 
 fn outside_domain(point: &Point, domain: &Domain) -> Option<Problem> {

@@ -23,15 +23,33 @@ pub(super) fn read_shape(table: &mut TableReader<'_>, domain: Option<&Domain>) -
     let periodic = domain.map_or([false; 3], |domain| domain.periodic);
     match table.selector_or("kind", WallShape::NAMES, "plane") {
         Ok("cylinder") => read_cylinder(table, periodic),
-        Ok(_) => read_plane(table, periodic),
+        Ok(_) => refuse_unnamed_cylinder(table).and_then(|()| read_plane(table, periodic)),
         Err(reported) => {
-            // Which keys are unknown depends on the kind.
-            for key in ["point", "normal", "area", "axis", "radius", "side"] {
-                table.value(key);
-            }
+            leave_the_rest(table);
             Err(reported)
         }
     }
+}
+
+/// Which keys are unknown depends on the kind.
+fn leave_the_rest(table: &mut TableReader<'_>) {
+    for key in ["kind", "point", "normal", "area", "axis", "radius", "side"] {
+        table.value(key);
+    }
+}
+
+/// A wall is a plane unless it says otherwise: who describes a cylinder and forgets `kind` is told that, not that its keys
+/// are unknown.
+fn refuse_unnamed_cylinder(table: &mut TableReader<'_>) -> Result<(), Reported> {
+    let keys = table.keys();
+    let of_cylinder = ["axis", "radius", "side"].into_iter().find(|key| keys.contains(key));
+    let Some(key) = of_cylinder.filter(|_| !keys.contains(&"kind") && !keys.contains(&"normal")) else {
+        return Ok(());
+    };
+    leave_the_rest(table);
+    let found = format!("the wall has the key `{key}` of a cylinder, and no `kind`");
+    let help = "without `kind` a wall is a plane";
+    Err(table.refuse_with_help("", Problem::rule(found, "`kind = \"cylinder\"`"), help))
 }
 
 fn read_plane(table: &mut TableReader<'_>, periodic: [bool; 3]) -> Result<Placed, Reported> {

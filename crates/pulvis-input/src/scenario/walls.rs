@@ -35,6 +35,14 @@ impl Wall {
     pub fn distance(&self, point: Vector3) -> f64 {
         self.shape.surface(self.point, point).distance
     }
+
+    /// On which side of it particles have to be, in words.
+    pub fn where_particles_are(&self) -> String {
+        match &self.shape {
+            WallShape::Plane(_) => "particles on the side to which the wall's normal points".to_owned(),
+            WallShape::Cylinder(cylinder) => format!("particles {} the cylinder", cylinder.side.name()),
+        }
+    }
 }
 
 /// The box and all walls.

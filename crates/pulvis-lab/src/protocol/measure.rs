@@ -34,6 +34,7 @@ impl Measure {
         let contacts =
             ["particles", "contacts", "wall_contacts", "coordination", "overlap_max", "solid_fraction"];
         columns.extend(contacts.map(str::to_owned));
+        columns.extend(AXES.map(|axis| format!("centre_of_mass_{axis}")));
         columns.extend(["stress_xx", "stress_yy", "stress_zz"].map(str::to_owned));
         for axis in AXES {
             columns.extend(["length", "strain", "wall_stress"].map(|name| format!("{name}_{axis}")));
@@ -98,6 +99,10 @@ impl Measure {
             contacts.overlap_max,
             simulation.particles().total_volume() / volume,
         ]);
+        // Along a periodic direction there is no centre.
+        let periodic = simulation.domain().periodic;
+        let centre = simulation.particles().centre_of_mass().to_array();
+        row.extend([0, 1, 2].map(|axis| if periodic[axis] { f64::NAN } else { centre[axis] }));
         row.extend([0, 1, 2].map(|axis| contacts.virial[axis][axis] / volume));
         for axis in 0..3 {
             let strain = lengths[axis].zip(start_lengths[axis]).map(|(now, start)| now / start - 1.0);

@@ -224,7 +224,7 @@ pub(super) fn box_walls(scenario: &Scenario, axis: usize) -> [Option<usize>; 2] 
 /// Refuses particles whose centres lie behind a wall.
 fn check_start(scenario: &Scenario, particles: &[Particle], walls: &[Wall]) -> Result<(), PrepareError> {
     for (id, particle) in particles.iter().enumerate() {
-        for wall in walls {
+        for (wall, plan) in walls.iter().zip(&scenario.walls) {
             let depth = -wall.distance(particle.position);
             if depth >= 0.0 {
                 let [x, y, z] = particle.position.to_array();
@@ -232,7 +232,7 @@ fn check_start(scenario: &Scenario, particles: &[Particle], walls: &[Wall]) -> R
                 let found = format!(
                     "particle {id} at ({x:.4e}, {y:.4e}, {z:.4e}) m is {depth:.3e} m behind wall `{name}`"
                 );
-                let problem = Problem::rule(found, "all particles on the inner side of all walls");
+                let problem = Problem::rule(found, plan.where_particles_are());
                 let path = format!("{}.arrangement", group_path(scenario, id));
                 return Err(scenario.mistake(&[&path], problem, "move the arrangement or the wall").into());
             }
