@@ -22,8 +22,10 @@
 pub mod catalogue;
 pub mod conventions;
 mod energy;
+pub mod events;
 mod expected;
 pub mod friction;
+pub mod functions;
 mod kinematics;
 pub mod levels;
 pub mod memory;

@@ -7,7 +7,9 @@ use pulvis_math::{Dimension, Mask, Real, elementary};
 use super::hertz::{EFFECTIVE_MODULUS, effective_radius, expected_overlap};
 use super::{NormalLaw, NormalResponse};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
+use crate::events;
 use crate::expected::ExpectedLoading;
+use crate::functions::cbrt;
 use crate::kinematics::NormalMotion;
 use crate::pair::Pair;
 
@@ -134,7 +136,10 @@ impl NormalLaw for Jkr {
             let separation_force = number(-5.0) * ninth;
             // Bodies that overlapped already, in a first look or under another law, met before this step.
             let meets = sets_in & attached & !motion.touched_before();
-            applied_force = weighted(motion, force, unit, separation_force, [meets, ends]);
+            let separation = number(-3.0) * unit;
+            applied_force = R::select(meets, events::sets_in(motion, zero, force), force);
+            applied_force =
+                R::select(ends, events::ends(motion, separation, separation_force), applied_force);
         }
         memory[0] = root.keep_where(attached);
         NormalResponse {
@@ -198,56 +203,6 @@ fn invert<R: Real>(e: R) -> R {
     z + R::one()
 }
 
-/// The force over the step in which it sets in or ends, so that velocity-Verlet's two half kicks give the impulse of
-/// the part θ of the step in which it acted: (θ + 1/2) F where it sets in, (θ − 1/2) F_sep where it ends.
-#[inline(always)]
-fn weighted<R: Real>(
-    motion: &NormalMotion<R>,
-    force: R,
-    unit: R,
-    separation_force: R,
-    [sets_in, ends]: [R::Mask; 2],
-) -> R {
-    let (zero, one, half) = (R::zero(), R::one(), R::splat(0.5));
-    let moved = motion.growth.abs().gt(zero);
-    let way = R::select(moved, motion.growth, one);
-    let since = R::select(moved, motion.overlap / way, half).max(zero).min(one);
-    let before = motion.overlap - motion.growth;
-    let until = R::select(moved, (before + R::splat(3.0) * unit) / (-way), half).max(zero).min(one);
-    let applied = R::select(sets_in, (since + half) * force, force);
-    R::select(ends, (until - half) * separation_force, applied)
-}
-
-/// Cube root of a positive number between 1e-58 and 1e57: scaled by exact powers of two into [1, 8), a parabola, and
-/// two steps of Halley's method. The error is below 4e-16.
-#[inline(always)]
-fn cbrt<R: Real>(x: R) -> R {
-    let (mut x, mut scale) = (x, R::one());
-    for exponent in [192, 96, 48, 24, 12, 6, 3] {
-        let (power, root) = (two_to(exponent), two_to(exponent / 3));
-        let (inverse_power, inverse_root) = (1.0 / power, 1.0 / root);
-        let large = x.ge(R::splat(power));
-        let small = x.lt(R::splat(inverse_power));
-        let factor = R::select(large, R::splat(inverse_power), R::select(small, R::splat(power), R::one()));
-        let back = R::select(large, R::splat(root), R::select(small, R::splat(inverse_root), R::one()));
-        (x, scale) = (x * factor, scale * back);
-    }
-    let below = x.lt(R::one());
-    x = R::select(below, x * R::splat(8.0), x);
-    scale = R::select(below, scale * R::splat(0.5), scale);
-    let mut root = R::splat(0.7625) + x * (R::splat(0.2681) - R::splat(0.0147) * x);
-    for _ in 0..2 {
-        let cube = root * root * root;
-        root = root * (cube + R::splat(2.0) * x) / (R::splat(2.0) * cube + x);
-    }
-    root * scale
-}
-
-/// 2 to a small power.
-const fn two_to(exponent: u64) -> f64 {
-    f64::from_bits((1023 + exponent) << 52)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -258,18 +213,6 @@ mod tests {
 
     fn wall() -> Pair {
         Pair::wall(1e-14, 1e-6)
-    }
-
-    #[test]
-    fn the_cube_root_is_good_to_round_off_over_all_sizes() {
-        for exponent in -57..57 {
-            for mantissa in [1.0, 1.7, 2.0, 3.1, 5.3, 9.9] {
-                let x: f64 = mantissa * elementary::powi(10.0, exponent);
-                let root = cbrt(x);
-                // The cube of a correctly rounded root errs by up to three times its half unit in the last place.
-                assert!((root * root * root / x - 1.0).abs() < 8.0 * f64::EPSILON, "{x}: {root}");
-            }
-        }
     }
 
     #[test]
