@@ -8,7 +8,7 @@
 //! # Source
 //! Derived for this program; measured for pair collisions in the tests of `jkr`.
 
-use pulvis_math::Real;
+use pulvis_math::{Mask, Real};
 
 use crate::kinematics::NormalMotion;
 
@@ -25,6 +25,22 @@ pub fn sets_in<R: Real>(motion: &NormalMotion<R>, event: R, force: R) -> R {
 pub fn ends<R: Real>(motion: &NormalMotion<R>, event: R, force: R) -> R {
     let before = motion.overlap - motion.growth;
     (part(before - event, -motion.growth) - R::splat(0.5)) * force
+}
+
+/// A `force` of bodies that overlap, zero for others, over the step: it sets in where they touch, and ends where they part
+/// with the value `at_touch` [N]. Where it does not jump there, nothing is to be weighted.
+#[inline(always)]
+pub fn while_touching<R: Real>(motion: &NormalMotion<R>, force: R, at_touch: R) -> R {
+    let zero = R::zero();
+    // In a first look nothing has grown: bodies that overlap then met before this step.
+    let meets = motion.touching & motion.overlap.le(motion.growth);
+    let parts = !motion.touching & motion.overlap.gt(motion.growth);
+    let mut applied = force;
+    if (meets | parts).any() {
+        applied = R::select(meets, sets_in(motion, zero, force), applied);
+        applied = R::select(parts, ends(motion, zero, at_touch), applied);
+    }
+    applied
 }
 
 /// `way` over `growth`, within 0 and 1; one half where nothing moves.

@@ -27,6 +27,24 @@ pub fn cbrt<R: Real>(x: R) -> R {
     root * scale
 }
 
+/// Arc tangent of a number t >= 0: halved three times by t/(1 + √(1 + t²)), then the odd series of eleven terms, whose
+/// argument is at most tan(π/16). The error is below 8e-16.
+#[inline(always)]
+pub fn atan<R: Real>(t: R) -> R {
+    let one = R::one();
+    let mut t = t;
+    for _ in 0..3 {
+        t = t / (one + (one + t * t).sqrt());
+    }
+    let square = t * t;
+    let mut series = R::zero();
+    for term in (0..11_u32).rev() {
+        let sign = if term % 2 == 0 { 1.0 } else { -1.0 };
+        series = R::splat(sign / f64::from(2 * term + 1)) + square * series;
+    }
+    R::splat(8.0) * t * series
+}
+
 /// 2 to a small power.
 const fn two_to(exponent: u64) -> f64 {
     f64::from_bits((1023 + exponent) << 52)
@@ -37,6 +55,18 @@ mod tests {
     use pulvis_math::elementary;
 
     use super::*;
+
+    #[test]
+    fn the_arc_tangent_is_good_to_round_off_over_all_sizes() {
+        for exponent in -20..20 {
+            for mantissa in [1.0, 1.7, 2.0, 3.1, 5.3, 9.9] {
+                let t: f64 = mantissa * elementary::powi(10.0, exponent);
+                // Ten roundings.
+                assert!((atan(t) / elementary::atan(t) - 1.0).abs() < 8e-16, "{t}: {}", atan(t));
+            }
+        }
+        assert_eq!(atan(0.0), 0.0);
+    }
 
     #[test]
     fn the_cube_root_is_good_to_round_off_over_all_sizes() {

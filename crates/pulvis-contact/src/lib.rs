@@ -48,7 +48,8 @@ pub use memory::{Columns, Memory, MemoryLayout, MemorySlots};
 pub use model::{ContactLaws, ContactModel};
 pub use noncontact::NonContact;
 pub use normal::{
-    Hertz, Jkr, Linear, Luding, Normal, NormalLaw, NormalLawVisitor, NormalResponse, WaltonJohnson,
+    Dahneke, Dmt, Hertz, Jkr, Linear, Luding, Normal, NormalLaw, NormalLawVisitor, NormalResponse,
+    WaltonJohnson,
 };
 pub use pair::Pair;
 pub use response::ContactResponse;

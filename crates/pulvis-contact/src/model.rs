@@ -188,7 +188,7 @@ impl ContactLaws {
         let mut attraction_force = R::zero();
         if !N::COMMON && !matches!(self.noncontact, NonContact::None(_)) {
             let attraction = self.noncontact.respond(&along, columns, slots.attraction);
-            normal_force += attraction.force;
+            normal_force += attraction.applied_force;
             attraction_force = attraction.force;
             energies.adhesive_potential += attraction.potential;
             energies.dissipated_adhesive += attraction.dissipated;

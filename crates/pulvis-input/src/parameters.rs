@@ -63,6 +63,7 @@ pub(crate) fn rule(dimension: Dimension, range: Range, may_be_infinite: bool) ->
         Range::NonNegative => rule.at_least(0.0),
         Range::AtLeast(least) => rule.at_least(least),
         Range::Within(above, up_to) => rule.above(above).at_most(up_to),
+        Range::Between(from, up_to) => rule.at_least(from).at_most(up_to),
     };
     if may_be_infinite { rule.or_infinite() } else { rule }
 }

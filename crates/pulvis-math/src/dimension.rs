@@ -22,6 +22,8 @@ impl Dimension {
     pub const NONE: Self = Self::new(0, 0, 0);
     /// Length [m].
     pub const LENGTH: Self = Self::new(0, 1, 0);
+    /// Volume [m^3].
+    pub const VOLUME: Self = Self::new(0, 3, 0);
     /// Mass [kg].
     pub const MASS: Self = Self::new(1, 0, 0);
     /// Time [s].
@@ -75,6 +77,7 @@ impl Dimension {
         Some(match (self.mass, self.length, self.time) {
             (0, 0, 0) => ("1", "pure number"),
             (0, 1, 0) => ("m", "length"),
+            (0, 3, 0) => ("m^3", "volume"),
             (1, 0, 0) => ("kg", "mass"),
             (0, 0, 1) => ("s", "time"),
             (0, 0, -1) => ("1/s", "rate"),

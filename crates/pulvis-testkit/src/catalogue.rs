@@ -140,6 +140,7 @@ fn outside(range: Range, may_be_infinite: bool) -> Vec<f64> {
         Range::Positive => numbers.extend([0.0, -1.0, f64::NEG_INFINITY]),
         Range::NonNegative => numbers.extend([-1e-300, -1.0, f64::NEG_INFINITY]),
         Range::AtLeast(least) => numbers.extend([least - 1e-9, f64::NEG_INFINITY]),
+        Range::Between(from, up_to) => numbers.extend([from - 1e-9, up_to + 1e-9, f64::NEG_INFINITY]),
         Range::Within(above, up_to) => numbers.extend([above, above - 1.0, up_to + 1e-9, f64::NEG_INFINITY]),
     }
     numbers

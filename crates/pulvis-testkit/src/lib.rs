@@ -11,6 +11,7 @@
 //! | [`viscosity`] | dashpots: sign, bound, lanes |
 //! | [`contact`] | whole contacts: frame, exchange, mirror, rotation, energy, lanes |
 //! | [`bodies`] | two spheres or a sphere and a wall, integrated, for closed forms |
+//! | [`collisions`] | head-on collisions with a wall, integrated, for closed forms |
 //! | [`reference`] | a whole engine without lists, for the fast one to be held against |
 //!
 //! `PULVIS_TESTKIT_CASES` multiplies the number of random cases, `PULVIS_TESTKIT_SEED` moves them.
@@ -21,6 +22,7 @@
 pub mod bodies;
 mod cases;
 pub mod catalogue;
+pub mod collisions;
 pub mod contact;
 mod draw;
 mod live;

@@ -104,7 +104,7 @@ fn random_number(range: Range, may_be_infinite: bool, center: f64, others: &Valu
     if draw.chance(0.15) {
         match range {
             Range::NonNegative => return 0.0,
-            Range::AtLeast(end) | Range::Within(_, end) => return end,
+            Range::AtLeast(end) | Range::Within(_, end) | Range::Between(_, end) => return end,
             Range::Any | Range::Positive => {}
         }
     }
@@ -120,6 +120,7 @@ fn random_number(range: Range, may_be_infinite: bool, center: f64, others: &Valu
     }
     let number = draw.log_between(center / 30.0, center * 30.0);
     match range {
+        Range::Between(from, end) => from + (end - from) * draw.unit(),
         Range::Within(above, end) => above + (end - above) * draw.between(0.01, 1.0),
         Range::AtLeast(least) => number.max(least),
         _ => number,

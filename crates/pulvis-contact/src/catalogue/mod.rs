@@ -76,6 +76,8 @@ pub enum Range {
     AtLeast(f64),
     /// Greater than the first and at most the second.
     Within(f64, f64),
+    /// At least the first and at most the second.
+    Between(f64, f64),
 }
 
 impl Range {
@@ -87,6 +89,7 @@ impl Range {
             Self::NonNegative => value >= 0.0,
             Self::AtLeast(least) => value >= least,
             Self::Within(above, up_to) => value > above && value <= up_to,
+            Self::Between(from, up_to) => value >= from && value <= up_to,
         }
     }
 }
@@ -99,6 +102,7 @@ impl fmt::Display for Range {
             Self::NonNegative => write!(out, ">= 0"),
             Self::AtLeast(least) => write!(out, ">= {least}"),
             Self::Within(above, up_to) => write!(out, "> {above} and <= {up_to}"),
+            Self::Between(from, up_to) => write!(out, ">= {from} and <= {up_to}"),
         }
     }
 }

@@ -66,8 +66,10 @@ impl NonContactLaw for JumpIn {
         let now = (before | touches) & within_reach;
         memory[0] = R::one().keep_where(now);
         let sudden = R::splat(0.5 * self.f_a * self.range());
+        let force = force.keep_where(now);
         NonContactResponse {
-            force: force.keep_where(now),
+            force,
+            applied_force: force,
             potential: potential.keep_where(now),
             dissipated: sudden.keep_where(now & !before),
         }

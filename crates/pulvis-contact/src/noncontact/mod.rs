@@ -7,11 +7,15 @@ use crate::kinematics::NormalMotion;
 use crate::memory::{self, Columns, Memory};
 use crate::pair::Pair;
 
+mod hamaker;
 mod jump_in;
+mod liquid_bridge;
 mod none;
 mod reversible;
 
+pub use hamaker::Hamaker;
 pub use jump_in::JumpIn;
+pub use liquid_bridge::LiquidBridge;
 pub use none::None;
 pub use reversible::Reversible;
 
@@ -20,6 +24,9 @@ pub use reversible::Reversible;
 pub struct NonContactResponse<R = f64> {
     /// Force, repulsion positive [N].
     pub force: R,
+    /// The force on the bodies over this step [N]: `force`, but where it sets in or ends within the step weighted by the
+    /// part of the step in which it acted.
+    pub applied_force: R,
     /// Potential energy, zero out of reach [J].
     pub potential: R,
     /// Energy lost since the last call because the attraction sets in suddenly [J].
@@ -118,4 +125,4 @@ macro_rules! noncontact_laws {
 }
 
 // The list of non-contact laws: a new one is its file and its name here.
-noncontact_laws![None, Reversible, JumpIn];
+noncontact_laws![None, Reversible, JumpIn, Hamaker, LiquidBridge];

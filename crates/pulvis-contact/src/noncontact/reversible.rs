@@ -73,7 +73,7 @@ impl NonContactLaw for Reversible {
     #[inline(always)]
     fn respond<R: Real>(&self, motion: &NormalMotion<R>, _memory: &mut ()) -> NonContactResponse<R> {
         let (force, potential) = linear_tail(self.f_a, self.kc_a, motion.overlap);
-        NonContactResponse { force, potential, dissipated: R::zero() }
+        NonContactResponse { force, applied_force: force, potential, dissipated: R::zero() }
     }
 
     fn interaction_range(&self, _pair: &Pair<f64>) -> f64 {

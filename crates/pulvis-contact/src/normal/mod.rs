@@ -8,6 +8,9 @@ use crate::kinematics::NormalMotion;
 use crate::memory::{self, Columns, Memory};
 use crate::pair::Pair;
 
+mod attracted_spheres;
+mod dahneke;
+mod dmt;
 mod hertz;
 mod jkr;
 mod linear;
@@ -15,6 +18,8 @@ mod luding;
 mod response;
 mod walton_johnson;
 
+pub use dahneke::Dahneke;
+pub use dmt::Dmt;
 pub use hertz::Hertz;
 pub use jkr::Jkr;
 pub use linear::Linear;
@@ -226,7 +231,7 @@ macro_rules! normal_laws {
 // The list of normal laws: a new one is its file and its name here, among the others. Loops are compiled once more for
 // each common law, for every level of resistance and instruction set; all others share one loop and are called through
 // pointers (decision 17).
-normal_laws![common: Linear, Luding; others: Hertz, Jkr, WaltonJohnson];
+normal_laws![common: Linear, Luding; others: Dahneke, Dmt, Hertz, Jkr, WaltonJohnson];
 
 macro_rules! forwarded {
     ($(#[$doc:meta])* $name:ident($($argument:ident: $type:ty),*) -> $output:ty) => {

@@ -110,3 +110,26 @@ pub fn tsuji_coefficient(restitution: f64) -> Result<f64, TheoryError> {
         Err(TheoryError::RestitutionOutOfRange { value: restitution })
     }
 }
+
+/// `C1 = sqrt(pi) Gamma(3/5)/(5^(2/5) 2^(1/5) Gamma(21/10))`.
+const VISCOUS: f64 = 1.153_448_858_1;
+
+impl HertzPair {
+    /// Coefficient of restitution of a collision with the velocity `v` [m/s], whose material has the dissipative time `A`
+    /// \[s\], to second order: `e = 1 - C1 x + (3/5) C1^2 x^2` with `x = (3 A/2) (k_H/m_r)^(2/5) v^(1/5)`. Good to 1e-5 at
+    /// `1 - e` = 0.03, to 6e-3 at 0.24 [-].
+    ///
+    /// # Source
+    ///
+    /// T. Schwager, T. Poeschel, Phys. Rev. E 57, 650 (1998); R. Ramirez, T. Poeschel, N. V. Brilliantov, T. Schwager, Phys.
+    /// Rev. E 60, 4465 (1999).
+    #[must_use]
+    pub fn viscous_restitution(&self, dissipative_time: f64, velocity: f64) -> f64 {
+        let x = 1.5
+            * dissipative_time
+            * elementary::powf(self.coefficient() / self.reduced_mass, 0.4)
+            * elementary::powf(velocity, 0.2);
+        let first = VISCOUS * x;
+        1.0 - first + 0.6 * first * first
+    }
+}

@@ -8,14 +8,18 @@ use crate::normal::NormalResponse;
 use crate::pair::Pair;
 
 mod constant;
+mod critical;
 mod hardening;
+mod kuwabara_kono;
 mod none;
 mod overlap_power;
 mod restitution;
 mod tsuji;
 
 pub use constant::Constant;
+pub use critical::Critical;
 pub use hardening::Hardening;
+pub use kuwabara_kono::KuwabaraKono;
 pub use none::None;
 pub use overlap_power::OverlapPower;
 pub use restitution::Restitution;
@@ -62,4 +66,4 @@ macro_rules! viscous_laws {
 }
 
 // The list of viscous laws: a new one is its file and its name here.
-viscous_laws![None, Constant, Hardening, OverlapPower, Restitution, Tsuji];
+viscous_laws![None, Constant, Critical, Hardening, KuwabaraKono, OverlapPower, Restitution, Tsuji];

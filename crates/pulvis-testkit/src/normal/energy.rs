@@ -69,9 +69,12 @@ impl<N: NormalLaw> Path<'_, N> {
         let kinks = 10.0 * bench.max_stiffness * step * step / 8.0;
         // Where a contact breaks, its force may begin like a square root of the distance from there: F √(δ/range) is
         // integrated to within 0.21 F step √(step/range).
-        let breaks =
-            if N::PATH_ONLY { 0.0 } else { 0.25 * self.strongest_pull * step * (step / bench.range).sqrt() };
-        SWEEPS as f64 * (kinks + breaks) + 1e-12 * bench.force * length
+        let breaks = if N::PATH_ONLY || bench.range == 0.0 {
+            0.0
+        } else {
+            0.25 * self.strongest_pull * step * (step / bench.range).sqrt()
+        };
+        SWEEPS as f64 * (kinks + breaks) + 1e-12 * (bench.force + self.strongest_pull) * length
     }
 }
 
