@@ -25,6 +25,21 @@ macro_rules! contact_energies {
             pub fn add_stored(&mut self, other: &Self) {
                 $(self.$stored += other.$stored;)*
             }
+
+            /// The sum of the stored energies [J].
+            pub fn stored(&self) -> R {
+                let sum = R::zero();
+                $(let sum = sum + self.$stored;)*
+                sum
+            }
+
+            /// The sum of the energies dissipated since the last call, without the work of dashpots [J].
+            pub fn dissipated(&self) -> R {
+                let Self { $($dissipated,)* .. } = Self { viscous_power: R::zero(), ..*self };
+                let sum = R::zero();
+                $(let sum = sum + $dissipated;)*
+                sum
+            }
         }
 
         each_account!($($stored,)* $($dissipated,)*);

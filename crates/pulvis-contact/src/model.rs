@@ -70,6 +70,14 @@ impl ContactModel {
         self.normal.interaction_range(pair).max(self.laws.noncontact.interaction_range(pair))
     }
 
+    /// Whether the forces between the bodies of `pair` depend on how fast these move, or on time.
+    pub fn depends_on_time(&self, pair: &Pair) -> bool {
+        self.normal.depends_on_time()
+            || self.normal.dashpot(pair) > 0.0
+            || !matches!(self.laws.viscosity, Viscosity::None(_))
+            || self.laws.has_resistance_dashpot()
+    }
+
     /// Where and under which names the contact keeps what it remembers.
     pub fn memory_layout(&self) -> MemoryLayout {
         let of_friction = |friction: &Option<Friction>, role| {

@@ -44,17 +44,45 @@ pub fn read_contact_model(table: TableReader<'_>) -> Result<ContactModel, Report
 /// # Errors
 /// As of [`read_contact_model`].
 pub fn read_contact(
-    mut table: TableReader<'_>,
+    table: TableReader<'_>,
     materials: Option<[&MaterialProperties; 2]>,
 ) -> Result<NamedContact, Reported> {
-    let normal = read_law(&mut table, materials, Role::Normal, Normal::build);
-    let noncontact = read_law(&mut table, materials, Role::NonContact, NonContact::build);
-    let viscosity = read_law(&mut table, materials, Role::Viscosity, Viscosity::build);
+    read_laws(table, Known { materials, base: None })
+}
+
+/// As [`read_contact`], where laws that the table leaves out are those of `base`.
+pub(crate) fn read_contact_beside(
+    table: TableReader<'_>,
+    base: &NamedContact,
+) -> Result<NamedContact, Reported> {
+    read_laws(table, Known { materials: None, base: Some(base) })
+}
+
+/// What is known of a contact beside its own table.
+#[derive(Clone, Copy)]
+struct Known<'k> {
+    /// The properties of the two materials.
+    materials: Option<[&'k MaterialProperties; 2]>,
+    /// The contact whose laws stand in for those that are left out.
+    base: Option<&'k NamedContact>,
+}
+
+impl Known<'_> {
+    /// The law that stands in for one that is left out.
+    fn law(&self, role: Role) -> Option<NamedLaw> {
+        self.base?.laws.iter().find(|law| law.role == role).cloned()
+    }
+}
+
+fn read_laws(mut table: TableReader<'_>, known: Known<'_>) -> Result<NamedContact, Reported> {
+    let normal = read_law(&mut table, known, Role::Normal, Normal::build);
+    let noncontact = read_law(&mut table, known, Role::NonContact, NonContact::build);
+    let viscosity = read_law(&mut table, known, Role::Viscosity, Viscosity::build);
     let mut slider =
-        |role| read_law(&mut table, materials, role, |name, values| friction::build(role, name, values));
+        |role| read_law(&mut table, known, role, |name, values| friction::build(role, name, values));
     let (sliding, rolling, torsion) = (slider(Role::Sliding), slider(Role::Rolling), slider(Role::Torsion));
-    let conventions = read_choices(&mut table);
-    let expected = read_choices(&mut table);
+    let conventions = read_choices(&mut table, known);
+    let expected = read_choices(&mut table, known);
     table.finish();
     let (normal, normal_law) = normal?;
     let (noncontact, noncontact_law) = noncontact?;
@@ -93,30 +121,32 @@ pub fn entries(role: Role) -> Vec<&'static LawEntry> {
 /// Reads the table of one role: `law`, and the parameters of the law that it names.
 fn read_law<L>(
     contact: &mut TableReader<'_>,
-    materials: Option<[&MaterialProperties; 2]>,
+    known: Known<'_>,
     role: Role,
     build: impl Fn(&str, &Values) -> Option<Result<L, InvalidParameter>>,
 ) -> Result<(L, NamedLaw), Reported> {
     let entries = entries(role);
     let names: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
     let table = match role {
-        Role::Normal => Some(contact.required_table(role.key())?),
+        Role::Normal if known.base.is_none() => Some(contact.required_table(role.key())?),
         _ => contact.optional_table(role.key())?,
     };
     let Some(mut table) = table else {
         let unknown = || contact.refuse(role.key(), Problem::unknown_choice("none", &names));
-        let none = entries.iter().find(|entry| entry.name == "none").ok_or_else(unknown)?;
-        let values = Values::new();
-        let law = build(none.name, &values).ok_or_else(unknown)?;
-        let law = law.map_err(|error| refuse_parameter(contact, error))?;
-        return Ok((law, NamedLaw { role, name: none.name, values }));
+        let none = || {
+            let none = entries.iter().find(|entry| entry.name == "none")?;
+            Some(NamedLaw { role, name: none.name, values: Values::new() })
+        };
+        let named = known.law(role).or_else(none).ok_or_else(unknown)?;
+        let law = build(named.name, &named.values).ok_or_else(unknown)?;
+        return Ok((law.map_err(|error| refuse_parameter(contact, error))?, named));
     };
     let name = table.selector("law", &names)?;
     let unknown = |table: &TableReader<'_>| table.refuse("law", Problem::unknown_choice(name, &names));
     let entry = entries.iter().find(|entry| entry.name == name).ok_or_else(|| unknown(&table))?;
     let law = read_parameters(&mut table, entry.parameters).and_then(|mut values| {
         for parameter in entry.parameters {
-            mix(&table, parameter, materials, &mut values)?;
+            mix(&table, parameter, known.materials, &mut values)?;
         }
         let values = entry.complete(&values).map_err(|error| refuse_parameter(&table, error))?;
         let law = build(name, &values).ok_or_else(|| unknown(&table))?;
@@ -153,7 +183,7 @@ fn mix(
 }
 
 /// Reads the table of a role that one entry plays, which holds parameters and names no law.
-fn read_choices<L: Law>(contact: &mut TableReader<'_>) -> Result<(L, NamedLaw), Reported> {
+fn read_choices<L: Law>(contact: &mut TableReader<'_>, known: Known<'_>) -> Result<(L, NamedLaw), Reported> {
     let entry = &L::ENTRY;
     let given = match contact.optional_table(entry.role.key())? {
         Some(mut table) => {
@@ -161,7 +191,7 @@ fn read_choices<L: Law>(contact: &mut TableReader<'_>) -> Result<(L, NamedLaw), 
             table.finish();
             values?
         }
-        None => Values::new(),
+        None => known.law(entry.role).map_or_else(Values::new, |law| law.values),
     };
     let built = entry.complete(&given).and_then(|values| Ok((L::from_values(&values)?, values)));
     let (choices, values) = built.map_err(|error| refuse_parameter(contact, error))?;

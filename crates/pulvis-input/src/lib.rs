@@ -7,8 +7,9 @@
 //! - [`reader`], [`value_reader`], [`shape`], [`list`]: tables are walked key by key, and *all*
 //!   mistakes are collected; [`parameters`] does so for the laws of the catalogue;
 //! - [`error`], [`problem`]: where it is wrong, what was found, what was expected, what to do;
-//! - [`mod@contact`], [`scenario`], [`collision`]: all laws of a contact, the scenario of a run, the
-//!   scenario of a pair collision, each checked as a whole.
+//! - [`mod@contact`], [`comparison`]: all laws of a contact, and contacts to be compared;
+//! - [`scenario`], [`collision`], [`probe`]: the scenario of a run, of a pair collision, and of a contact on a
+//!   prescribed path, each checked as a whole.
 //!
 //! # Example
 //! ```
@@ -27,6 +28,7 @@
 
 mod any_quantity;
 pub mod collision;
+pub mod comparison;
 pub mod contact;
 pub mod context;
 mod decimal;
@@ -38,6 +40,7 @@ pub mod material;
 mod mistake;
 pub mod overrides;
 pub mod parameters;
+pub mod probe;
 pub mod problem;
 pub mod quantity;
 pub mod reader;
@@ -53,6 +56,7 @@ mod value;
 pub mod value_reader;
 
 pub use any_quantity::AnyQuantity;
+pub use comparison::LabelledContact;
 pub use contact::{NamedContact, NamedLaw, read_contact, read_contact_model};
 pub use context::{Location, Reported};
 pub use document::Document;

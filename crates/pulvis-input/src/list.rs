@@ -48,6 +48,7 @@ impl<S: Shape> Shape for List<S> {
     fn describe(&self) -> String {
         let count = match (self.least, self.most) {
             (0, usize::MAX) => String::new(),
+            (1, 1) => "1 value: ".to_owned(),
             (least, most) if least == most => format!("{least} values: each "),
             (least, usize::MAX) => format!("{least} or more values: each "),
             (least, most) => format!("{least} to {most} values: each "),

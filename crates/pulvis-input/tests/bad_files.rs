@@ -2,11 +2,13 @@
 //!
 //! A line `#^ 3:10: contact.normal.kp: ...` is the first line of one message without `error: <file>:`;
 //! several mistakes are several such lines, in the order of the file, missing keys after the unknown ones of
-//! their table. Changing a message shows up in review. Files `collision_*` are scenarios of pair collisions, all others of runs.
+//! their table. Changing a message shows up in review. Files `collision_*` are scenarios of pair
+//! collisions, files `probe_*` of probes, all others of runs.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pulvis_input::collision::CollisionScenario;
+use pulvis_input::probe::ProbeScenario;
 use pulvis_input::{InputErrors, Problem, Scenario};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,6 +29,8 @@ fn load(path: &Path) -> Result<(), InputErrors> {
     let name = path.file_name().unwrap().to_string_lossy();
     if name.starts_with("collision_") {
         CollisionScenario::load(path, &[]).map(|_| ())
+    } else if name.starts_with("probe_") {
+        ProbeScenario::load(path, &[]).map(|_| ())
     } else {
         Scenario::load(path).map(|_| ())
     }

@@ -1,6 +1,9 @@
 //! Level 4 of the house: experiments.
 //!
-//! [`protocol`]: a scenario's stages, run one after another. [`collision`]: two bodies head on, one contact, to round-off or with the engine's time step.
+//! [`protocol`]: a scenario's stages, run one after another. [`collision`]: two bodies, one contact, to round-off or with
+//! the engine's time step. [`probe`]: one contact on a prescribed path.
 
+mod branch;
 pub mod collision;
+pub mod probe;
 pub mod protocol;

@@ -8,6 +8,7 @@ use pulvis_input::InputErrors;
 use pulvis_input::collision::CollisionScenario;
 use pulvis_lab::collision::{SweepPoint, figure, result_table, sweep, trajectory_table};
 
+use super::picture_file::{check, exists};
 use super::set::Settings;
 use crate::failure::{Failure, print};
 
@@ -44,7 +45,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         None => Vec::new(),
     };
     if let Some(file) = &arguments.plot {
-        check_plot(file, arguments.force)?;
+        check(file, arguments.force)?;
     }
     let points = sweep(&scenario, !trajectories.is_empty()).map_err(Failure::while_running)?;
     for (point, file) in points.iter().zip(&trajectories) {
@@ -85,27 +86,4 @@ fn prepare(folder: &Path, count: usize, force: bool) -> Result<Vec<PathBuf>, Fai
         ))
     })?;
     Ok(files)
-}
-
-fn check_plot(file: &Path, force: bool) -> Result<(), Failure> {
-    let ending = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    if !pulvis_io::plot::FORMATS.iter().any(|format| format.extension == ending) {
-        let known: Vec<_> = pulvis_io::plot::FORMATS.iter().map(|format| format.extension).collect();
-        return Err(Failure::bad_input(format!(
-            "{}: no plot format is called `{ending}`; choose one of: {}",
-            file.display(),
-            known.join(", ")
-        )));
-    }
-    if file.exists() && !force {
-        return Err(exists(file));
-    }
-    Ok(())
-}
-
-fn exists(file: &Path) -> Failure {
-    Failure::bad_input(format!(
-        "{} exists; choose another place, or write over it with --force",
-        file.display()
-    ))
 }

@@ -3,6 +3,8 @@
 mod check;
 mod collide;
 mod laws;
+mod picture_file;
+mod probe;
 mod progress;
 mod run;
 mod set;
@@ -23,6 +25,8 @@ pub enum Command {
     Run(run::Arguments),
     /// Collides two bodies head on, over a sweep of velocities or law parameters
     Collide(collide::Arguments),
+    /// Leads a contact along a prescribed path, as an indenter does
+    Probe(probe::Arguments),
     /// Lists the contact laws, or describes one in full
     Laws(laws::Arguments),
 }
@@ -34,6 +38,7 @@ impl Command {
             Self::Check(arguments) => check::execute(arguments),
             Self::Run(arguments) => run::execute(arguments),
             Self::Collide(arguments) => collide::execute(arguments),
+            Self::Probe(arguments) => probe::execute(arguments),
             Self::Laws(arguments) => laws::execute(arguments),
         }
     }

@@ -67,6 +67,10 @@ pub trait NormalLaw: Law + Listed {
     /// watches the stiffness of the contacts that there are.
     const STIFFNESS_IS_BOUNDED: bool = true;
 
+    /// Whether the force depends on the rate or on time beside what [`dashpot`](Self::dashpot) says: then a path without
+    /// times says too little.
+    const DEPENDS_ON_TIME: bool = false;
+
     /// Radius of the contact area under the `expected` loading [m]; zero for laws that know none.
     fn expected_contact_radius(&self, _pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
         0.0
@@ -280,6 +284,18 @@ impl Normal {
             }
         }
         self.accept(Bounded)
+    }
+
+    /// See [`NormalLaw::DEPENDS_ON_TIME`].
+    pub fn depends_on_time(&self) -> bool {
+        struct Timed;
+        impl NormalLawVisitor for Timed {
+            type Output = bool;
+            fn visit<N: NormalLaw>(self, _law: &N) -> bool {
+                N::DEPENDS_ON_TIME
+            }
+        }
+        self.accept(Timed)
     }
 
     /// See [`NormalLaw::branch`]; the law's memory stands in the first of the `columns`.

@@ -63,7 +63,7 @@ pub(crate) fn unfit_for_numbers(sphere: &Sphere) -> Option<Problem> {
 
 /// Reads `bodies`, `radius` and one of `density` and `mass`. A pair whose spheres are equal may give
 /// one value for both.
-pub(super) fn read_bodies(table: &mut TableReader<'_>) -> Result<Bodies, Reported> {
+pub(crate) fn read_bodies(table: &mut TableReader<'_>) -> Result<Bodies, Reported> {
     let kind = table.required("bodies", Name(&["pair", "wall"]));
     let most = if matches!(kind, Ok("wall")) { 1 } else { 2 };
     let list =

@@ -29,8 +29,8 @@ mod closed_form;
 mod speed;
 mod sweep;
 
-pub(crate) use bodies::unfit_for_numbers;
 pub use bodies::{Bodies, Sphere};
+pub(crate) use bodies::{read_bodies, unfit_for_numbers};
 pub use closed_form::luding_pair;
 pub use sweep::SweptVariable;
 
@@ -43,7 +43,6 @@ use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::{Name, Text};
-use bodies::read_bodies;
 use pulvis_contact::ContactModel;
 use pulvis_math::Dimension;
 use speed::{Speed, read_speed};

@@ -4,6 +4,7 @@
 use super::error::CollisionError;
 use super::outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
 use super::problem::Problem;
+use crate::branch::ruling_branch;
 use pulvis_contact::NormalMotion;
 use pulvis_core::walls::Wall;
 use pulvis_core::{Background, Domain, Interactions, Particle, Setup, Simulation};
@@ -193,13 +194,7 @@ impl<'p> Run<'p> {
 
     /// The branch on which the bodies are, or that of the attraction where they are apart.
     fn branch(&self, overlap: f64) -> &'static str {
-        let (contact, pair) = (self.problem.contact, &self.problem.pair);
-        let normal = contact.normal.branch(pair, overlap, &self.columns);
-        if overlap > 0.0 || normal.0 != 0 {
-            return normal.1;
-        }
-        let slots = *contact.memory_layout().slots();
-        contact.laws.noncontact.branch(pair, overlap, &self.columns, slots.attraction()).1
+        ruling_branch(self.problem.contact, &self.problem.pair, overlap, &self.columns)
     }
 
     fn finish(mut self) -> Collision {
