@@ -45,6 +45,54 @@ pub fn atan<R: Real>(t: R) -> R {
     R::splat(8.0) * t * series
 }
 
+/// A power of a number that is not negative: products and a square root where the exponent is a small multiple of one
+/// half, otherwise lane by lane, which is slow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Power {
+    exponent: f64,
+    /// The whole part of the exponent and whether one half is left, where both are to be had.
+    products: Option<(u8, bool)>,
+}
+
+impl Power {
+    /// The power with this exponent, at least zero.
+    pub fn new(exponent: f64) -> Self {
+        let whole = exponent.floor();
+        let half = exponent - whole == 0.5;
+        let fits = whole <= 8.0 && (half || exponent == whole);
+        Self { exponent, products: fits.then_some((whole as u8, half)) }
+    }
+
+    /// The exponent.
+    pub fn exponent(&self) -> f64 {
+        self.exponent
+    }
+
+    /// `x` to the power.
+    #[inline(always)]
+    pub fn of<R: Real>(&self, x: R) -> R {
+        let Some((whole, half)) = self.products else {
+            return x.powf(self.exponent);
+        };
+        let mut product = if half { x.sqrt() } else { R::one() };
+        for _ in 0..whole {
+            product = product * x;
+        }
+        product
+    }
+
+    /// The number whose power is `y`; the exponent must not be zero.
+    #[inline(always)]
+    pub fn inverse<R: Real>(&self, y: R) -> R {
+        match self.products {
+            Some((1, false)) => y,
+            Some((1, true)) => cbrt(y * y).keep_where(y.gt(R::zero())),
+            Some((2, false)) => y.sqrt(),
+            _ => y.powf(1.0 / self.exponent),
+        }
+    }
+}
+
 /// 2 to a small power.
 const fn two_to(exponent: u64) -> f64 {
     f64::from_bits((1023 + exponent) << 52)
@@ -66,6 +114,22 @@ mod tests {
             }
         }
         assert_eq!(atan(0.0), 0.0);
+    }
+
+    #[test]
+    fn powers_agree_with_the_elementary_function_and_are_inverted() {
+        for exponent in [0.0, 0.5, 1.0, 1.3, 1.5, 2.0, 2.5, 5.0, 8.5, 17.0] {
+            let power = Power::new(exponent);
+            for x in [0.0, 3e-9, 1.0, 7.0] {
+                let expected = elementary::powf(x, exponent);
+                let found = power.of(x);
+                // One rounding a product.
+                assert!((found - expected).abs() <= 1e-15 * expected, "{x}^{exponent}: {found}");
+                if exponent > 0.0 {
+                    assert!((power.inverse(found) - x).abs() <= 2e-15 * x, "{x}^{exponent}");
+                }
+            }
+        }
     }
 
     #[test]

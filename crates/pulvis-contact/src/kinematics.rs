@@ -52,6 +52,10 @@ pub struct ContactInputs<'a, R> {
 pub struct NormalMotion<R: Real> {
     /// Constants of the two bodies.
     pub pair: Pair<R>,
+    /// Radius of i [m].
+    pub radius_i: R,
+    /// Radius of j; zero for a wall [m].
+    pub radius_j: R,
     /// Overlap δ, negative at a distance [m].
     pub overlap: R,
     /// Whether the bodies overlap, δ > 0.
@@ -73,6 +77,8 @@ impl<R: Real> NormalMotion<R> {
         let touching = kinematics.overlap.gt(R::zero());
         Self {
             pair: *pair,
+            radius_i: kinematics.radius_i,
+            radius_j: kinematics.radius_j,
             overlap: kinematics.overlap,
             touching,
             depth: kinematics.overlap.keep_where(touching),
@@ -82,13 +88,30 @@ impl<R: Real> NormalMotion<R> {
         }
     }
 
-    /// A contact at rest at an overlap [m].
+    /// A contact at rest at an overlap [m]. The pair does not know both radii: taken are two spheres of the harmonic mean
+    /// radius; for others see [`between`](Self::between).
     #[inline(always)]
     pub fn at_rest(pair: &Pair<R>, overlap: R) -> Self {
         let touching = overlap.gt(R::zero());
         let zero = R::zero();
-        let (pair, depth) = (*pair, overlap.keep_where(touching));
-        Self { pair, overlap, touching, depth, closing_rate: zero, growth: zero, time_step: 0.0 }
+        let radius = pair.harmonic_radius();
+        Self {
+            pair: *pair,
+            radius_i: radius,
+            radius_j: radius,
+            overlap,
+            touching,
+            depth: overlap.keep_where(touching),
+            closing_rate: zero,
+            growth: zero,
+            time_step: 0.0,
+        }
+    }
+
+    /// The same motion between spheres of these radii [m]; zero for the second one is a wall.
+    #[must_use]
+    pub fn between(self, radius_i: R, radius_j: R) -> Self {
+        Self { radius_i, radius_j, ..self }
     }
 
     /// Whether the bodies overlapped before the step already.

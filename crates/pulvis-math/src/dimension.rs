@@ -24,6 +24,8 @@ impl Dimension {
     pub const LENGTH: Self = Self::new(0, 1, 0);
     /// Volume [m^3].
     pub const VOLUME: Self = Self::new(0, 3, 0);
+    /// One over a length [1/m].
+    pub const INVERSE_LENGTH: Self = Self::new(0, -1, 0);
     /// Mass [kg].
     pub const MASS: Self = Self::new(1, 0, 0);
     /// Time [s].
@@ -80,6 +82,7 @@ impl Dimension {
             (0, 3, 0) => ("m^3", "volume"),
             (1, 0, 0) => ("kg", "mass"),
             (0, 0, 1) => ("s", "time"),
+            (0, -1, 0) => ("1/m", "inverse length"),
             (0, 0, -1) => ("1/s", "rate"),
             (0, 1, -1) => ("m/s", "velocity"),
             (0, 1, -2) => ("m/s^2", "acceleration"),
@@ -149,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_force_over_a_length_is_a_stiffness() {
-        let per_length = Dimension::new(0, -1, 0);
+        let per_length = Dimension::INVERSE_LENGTH;
         assert_eq!(Dimension::FORCE * per_length, Dimension::STIFFNESS);
         assert_eq!(Dimension::STIFFNESS.unit(), "N/m");
     }

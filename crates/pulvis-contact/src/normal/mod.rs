@@ -11,20 +11,30 @@ use crate::pair::Pair;
 mod attracted_spheres;
 mod dahneke;
 mod dmt;
+mod eepa;
 mod hertz;
 mod jkr;
+mod kempton;
 mod linear;
 mod luding;
+mod molerus;
 mod response;
+mod walton_braun;
+mod walton_braun_variable;
 mod walton_johnson;
 
 pub use dahneke::Dahneke;
 pub use dmt::Dmt;
+pub use eepa::{Eepa, EepaMemory};
 pub use hertz::Hertz;
 pub use jkr::Jkr;
+pub use kempton::Kempton;
 pub use linear::Linear;
 pub use luding::{Interpolation, Luding, LudingMemory};
+pub use molerus::{Molerus, MolerusMemory};
 pub use response::NormalResponse;
+pub use walton_braun::WaltonBraun;
+pub use walton_braun_variable::WaltonBraunVariable;
 pub use walton_johnson::{WaltonJohnson, WaltonJohnsonMemory};
 
 /// A force along the line of centres.
@@ -36,8 +46,11 @@ pub trait NormalLaw: Law + Listed {
     type Memory<R: Real>: Memory<R>;
 
     /// Whether `respond` answers to an overlap in the same way however often and however far apart it is asked on a
-    /// monotone path (rate-independent laws without jumps).
+    /// monotone path (rate-independent laws).
     const PATH_ONLY: bool = true;
+
+    /// Whether the force may jump where the [branch](Self::branch) changes.
+    const JUMPS: bool = !Self::PATH_ONLY;
 
     /// The answer to a motion; updates the memory. It is asked as long as the bodies are within the law's
     /// [range](Self::interaction_range), and once more when they have left it: then the force must be zero, and the
@@ -235,7 +248,11 @@ macro_rules! normal_laws {
 // The list of normal laws: a new one is its file and its name here, among the others. Loops are compiled once more for
 // each common law, for every level of resistance and instruction set; all others share one loop and are called through
 // pointers (decision 17).
-normal_laws![common: Linear, Luding; others: Dahneke, Dmt, Hertz, Jkr, WaltonJohnson];
+normal_laws![
+    common: Linear, Luding;
+    others:
+        Dahneke, Dmt, Eepa, Hertz, Jkr, Kempton, Molerus, WaltonBraun, WaltonBraunVariable, WaltonJohnson
+];
 
 macro_rules! forwarded {
     ($(#[$doc:meta])* $name:ident($($argument:ident: $type:ty),*) -> $output:ty) => {

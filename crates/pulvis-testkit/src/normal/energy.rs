@@ -14,25 +14,32 @@ struct Path<'a, N: NormalLaw> {
     memory: N::Memory<f64>,
     overlap: f64,
     force: f64,
-    acts: bool,
+    branch: (u8, bool),
     work: f64,
     lost: f64,
     strongest_pull: f64,
 }
 
 impl<N: NormalLaw> Path<'_, N> {
-    fn acts_at(&self, overlap: f64) -> bool {
-        self.bench.respond(overlap, &mut self.memory.clone()).in_contact
+    /// The branch at an overlap and whether the contact is closed there: where one of them changes the force may jump.
+    fn branch_at(&self, overlap: f64) -> (u8, bool) {
+        let mut memory = self.memory;
+        let answer = self.bench.respond(overlap, &mut memory);
+        (self.bench.law.branch(&self.bench.pair, overlap, &memory).0, answer.in_contact)
     }
 
-    /// Goes to an overlap; where the force sets in or ends with a jump on the way, up to the jump and over it in a step
-    /// of round-off, so that the trapezoidal rule takes the jump where it is.
+    /// Goes to an overlap; where the force may jump on the way, up to the jump and over it in a step of round-off, so
+    /// that the trapezoidal rule takes the jump where it is.
     fn go(&mut self, overlap: f64) {
-        if !N::PATH_ONLY && self.acts_at(overlap) != self.acts {
+        // A step passes a few branches at the most.
+        for _ in 0..6 {
+            if !N::JUMPS || self.branch_at(overlap) == self.branch {
+                break;
+            }
             let (mut near, mut far) = (self.overlap, overlap);
             for _ in 0..60 {
                 let middle = 0.5 * (near + far);
-                let side = if self.acts_at(middle) == self.acts { &mut near } else { &mut far };
+                let side = if self.branch_at(middle) == self.branch { &mut near } else { &mut far };
                 *side = middle;
             }
             self.step(near);
@@ -56,7 +63,8 @@ impl<N: NormalLaw> Path<'_, N> {
         let error = (self.work - self.lost - answer.stored_energy - answer.adhesive_potential).abs();
         let allowed = self.allowed();
         assert!(error <= allowed, "{error} J are missing, allowed {allowed} J: {}", state());
-        (self.overlap, self.force, self.acts) = (overlap, answer.force, answer.in_contact);
+        (self.overlap, self.force) = (overlap, answer.force);
+        self.branch = (bench.law.branch(&bench.pair, overlap, &self.memory).0, answer.in_contact);
     }
 
     /// What the trapezoidal rule may err [J].
@@ -69,7 +77,7 @@ impl<N: NormalLaw> Path<'_, N> {
         let kinks = 10.0 * bench.max_stiffness * step * step / 8.0;
         // Where a contact breaks, its force may begin like a square root of the distance from there: F √(δ/range) is
         // integrated to within 0.21 F step √(step/range).
-        let breaks = if N::PATH_ONLY || bench.range == 0.0 {
+        let breaks = if !N::JUMPS || bench.range == 0.0 {
             0.0
         } else {
             0.25 * self.strongest_pull * step * (step / bench.range).sqrt()
@@ -91,7 +99,7 @@ pub(super) fn work_is_stored_or_dissipated<N: NormalLaw>(bench: &Bench<N>, draw:
         memory,
         overlap: apart,
         force: 0.0,
-        acts: false,
+        branch: (0, false),
         work: 0.0,
         lost: 0.0,
         strongest_pull: 0.0,

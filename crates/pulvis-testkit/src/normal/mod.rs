@@ -7,16 +7,20 @@ use crate::draw::Draw;
 use crate::for_each_case;
 use crate::parameters::{loaded_to, random_law, random_pair};
 
+mod collision;
 mod energy;
 mod history;
 mod lanes;
+mod paths;
 mod shape;
 
 /// Checks every normal law of the catalogue with `count` random sets of parameters.
 pub fn check_all(count: u64) {
     for entry in Normal::ENTRIES {
         for_each_case(entry.name, count, |draw| {
-            random_law(entry, draw, Normal::build).accept(Suite { draw });
+            let law = random_law(entry, draw, Normal::build);
+            law.accept(Suite { draw });
+            collision::a_collision_at_the_automatic_step_keeps_its_energy(&law, draw);
         });
     }
 }
@@ -36,6 +40,7 @@ impl NormalLawVisitor for Suite<'_> {
         shape::the_force_is_continuous_and_no_steeper_than_max_stiffness(&bench, draw);
         shape::a_branch_has_one_name_and_no_kink(&bench, draw);
         energy::work_is_stored_or_dissipated(&bench, draw);
+        paths::no_path_creates_energy(&bench, draw);
         lanes::lanes_give_the_bits_of_the_plain_number(*law, draw);
     }
 }
@@ -50,7 +55,7 @@ struct Bench<N: NormalLaw> {
     span: f64,
     /// Steepest slope of the force up to 1.3 times the largest overlap [N/m].
     max_stiffness: f64,
-    /// Stiffness times the length of all paths: what forces are measured against [N].
+    /// Stiffness times the length of all paths, and what acts at touch: what forces are measured against [N].
     force: f64,
 }
 
@@ -59,7 +64,8 @@ impl<N: NormalLaw> Bench<N> {
         let pair = random_pair(draw);
         let mut virgin = <N::Memory<f64>>::default();
         let touch = NormalMotion::at_rest(&pair, 1e-9 * pair.harmonic_radius());
-        let scale = law.respond(&touch, &mut virgin).inverse_overlap_scale.recip();
+        let touches = law.respond(&touch, &mut virgin);
+        let scale = touches.inverse_overlap_scale.recip();
         assert!(scale > 0.0 && scale.is_finite(), "{law:?}: the overlap scale is {scale}");
         let range = law.interaction_range(&pair);
         assert!(range >= 0.0 && range.is_finite(), "{law:?}: acts at a distance of {range} m");
@@ -75,7 +81,8 @@ impl<N: NormalLaw> Bench<N> {
             max_stiffness > 0.0 && max_stiffness.is_finite(),
             "{law:?}: the steepest slope is {max_stiffness}"
         );
-        Self { law, pair, range, span, max_stiffness, force: max_stiffness * (span + range) }
+        let force = max_stiffness * (span + range) + touches.force.abs();
+        Self { law, pair, range, span, max_stiffness, force }
     }
 
     fn respond(&self, overlap: f64, memory: &mut N::Memory<f64>) -> NormalResponse {
