@@ -60,16 +60,8 @@ fn rebound(law: &Normal, mass: f64, speed: f64, dt: f64) -> (f64, f64) {
     let mut sphere = Sphere::at_rest(mass, radius, Vector3::new(0.0, 0.0, radius));
     sphere.velocity.z = -speed;
     let mut couple = Couple::new(&ContactModel::frictionless(*law), sphere, None);
-    let mut last = 0.0;
-    let steps = couple.step_until(dt, 1_000_000, |couple| {
-        let ends = couple.normal_force == 0.0;
-        if !ends {
-            last = couple.normal_force;
-        }
-        ends
-    });
-    let slope = last / (couple.i.velocity.z * dt);
-    (couple.i.velocity.z / speed, dt * steps as f64 - dt + (last / slope) / couple.i.velocity.z * 0.5)
+    let steps = couple.step_until(dt, 1_000_000, |couple| couple.normal_force == 0.0);
+    (couple.i.velocity.z / speed, dt * steps as f64)
 }
 
 #[test]
@@ -96,8 +88,8 @@ fn walton_and_brauns_springs_rebound_as_their_closed_forms_say() {
         let (found, time) = rebound(&law, mass, speed, duration / 4000.3);
         // Second order, kinks where branches meet: (ω dt)²/24 = 1e-7 and the step of the kink.
         assert!((found - restitution).abs() < 1e-6, "{name}: {found}, expected {restitution}");
-        // To within the last step.
-        assert!((time / duration - 1.0).abs() < 4e-4, "{name}: {time}, expected {duration}");
+        // To within one of the 4000 steps.
+        assert!((time / duration - 1.0).abs() < 3e-4, "{name}: {time}, expected {duration}");
     }
     let stiffening = WaltonBraunPair::variable(100.0, 5e4, 5.575e-6).unwrap();
     assert_printed(stiffening.unloading_stiffness(0.1), 218.05718953117594, 14);
@@ -192,8 +184,11 @@ fn the_edinburgh_law_has_the_published_points_and_restitution() {
 
 #[test]
 fn without_adhesion_the_edinburgh_law_rebounds_alike_at_any_speed() {
-    let cases =
-        [(0.5, 1.0, 0.7071067811865476), (0.5, 1.5, 0.6670388200256075), (0.9, 1.5, 0.2903302414718939)];
+    let cases = [
+        (0.5, 1.0, std::f64::consts::FRAC_1_SQRT_2),
+        (0.5, 1.5, 0.6670388200256075),
+        (0.9, 1.5, 0.2903302414718939),
+    ];
     for (lambda_p, n, restitution) in cases {
         // The third has lost two digits: 1 − L^(n+1) and the term that is taken from it are alike.
         let theory = eepa::restitution_without_adhesion(lambda_p, n);
