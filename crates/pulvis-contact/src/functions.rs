@@ -81,6 +81,36 @@ impl Power {
         product
     }
 
+    /// ∫ (t^n − y^n) dt from y to x, never negative, for y > 0 and the powers `x_n`, `y_n` of x and y.
+    ///
+    /// The plain sum of three terms cancels at x = y: written out where the power is known, otherwise a series there.
+    #[inline(always)]
+    pub fn area_above<R: Real>(&self, x: R, x_n: R, y: R, y_n: R) -> R {
+        let number = R::splat;
+        let n = self.exponent;
+        let apart = x - y;
+        if n == 1.0 {
+            return number(0.5) * apart * apart;
+        }
+        if n == 1.5 {
+            // With a = √x, b = √y: 2 a⁵ − 5 a² b³ + 3 b⁵ = (a − b)² (2 a³ + 4 a² b + 6 a b² + 3 b³), over 5.
+            let (a, b) = (x.sqrt(), y.sqrt());
+            let cubes = (number(2.0) * a + number(4.0) * b) * x + (number(6.0) * a + number(3.0) * b) * y;
+            return number(0.2) * (a - b) * (a - b) * cubes;
+        }
+        let sum = (number(1.0 / (n + 1.0)) * x_n - y_n) * x + number(n / (n + 1.0)) * y_n * y;
+        let step = apart / y.max(number(f64::MIN_POSITIVE));
+        let near = step.abs().lt(number(0.01));
+        let mut series = R::zero();
+        for term in (0..5_i32).rev() {
+            // The binomial coefficients of (1 + step)^(n + 1), one over the next.
+            let ratio = (n - 1.0 - f64::from(term)) / f64::from(term + 3);
+            series = R::one() + number(ratio) * step * series;
+        }
+        let square = number(0.5 * n) * y_n * y * step * step;
+        R::select(near, square * series, sum.max(R::zero()))
+    }
+
     /// The number whose power is `y`; the exponent must not be zero.
     #[inline(always)]
     pub fn inverse<R: Real>(&self, y: R) -> R {
@@ -128,6 +158,30 @@ mod tests {
                 if exponent > 0.0 {
                     assert!((power.inverse(found) - x).abs() <= 2e-15 * x, "{x}^{exponent}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn areas_above_a_power_neither_cancel_nor_jump() {
+        for exponent in [1.0, 1.3, 1.5, 2.0, 2.9] {
+            let power = Power::new(exponent);
+            for step in [-0.9, -0.5, -0.0101, -0.0099, -1e-5, 1e-7, 1e-3, 0.0099, 0.0101, 0.5, 3.0] {
+                let (x, y) = (3e-6 * (1.0 + step), 3e-6);
+                let found = power.area_above(x, power.of(x), y, power.of(y));
+                // The mean of the second derivative: Gauss-Legendre integration of n (1 + s step)^(n − 1) (1 − s) from 0
+                // to 1, in a hundred parts of two points.
+                let mean: f64 = (0..200)
+                    .map(|index| {
+                        let side = if index % 2 == 0 { -1.0 } else { 1.0 } / 3.0_f64.sqrt();
+                        let s = (f64::from(index / 2) + 0.5 + 0.5 * side) / 100.0;
+                        exponent * elementary::powf(1.0 + s * step, exponent - 1.0) * (1.0 - s) / 200.0
+                    })
+                    .sum();
+                let expected = mean * step * step * power.of(y) * y;
+                // Rounding of x and y, and the plain sum where it begins: 1e-16 of terms 1e4 times greater.
+                let allowed = 2e-7 * step * step + 4e-12 + 8.0 * f64::EPSILON / step.abs();
+                assert!((found / expected - 1.0).abs() < allowed, "{exponent}, {step}: {found} {expected}");
             }
         }
     }

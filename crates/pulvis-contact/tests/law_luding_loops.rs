@@ -242,3 +242,17 @@ fn a_full_loop_loses_half_of_force_free_overlap_times_both_extreme_forces() {
     let expected = 0.5 * 0.8 * (1.0 + 2.0 / 3.0) * LAW.k1 * limit * limit;
     assert!((lost / expected - 1.0).abs() < 1e-13, "{lost} {expected}");
 }
+
+#[test]
+fn a_contact_that_remembers_more_than_its_law_allows_is_fully_plastic_and_no_stiffer() {
+    let law = Luding { k1: 100.0, kp: 500.0, kc: 50.0, phi_f: 0.05, interpolation: Interpolation::Linear };
+    let pair = Pair::spheres(1e-6, 1e-6, 1e-3, 1e-3);
+    let limit: f64 = law.plastic_limit(&pair);
+    let overlap = 0.9 * limit;
+    let respond = |overlap_max: f64| {
+        law.respond(&NormalMotion::at_rest(&pair, overlap), &mut LudingMemory { overlap_max })
+    };
+    let (beyond, at_limit) = (respond(1.5 * limit), respond(limit));
+    assert_eq!((beyond.force, beyond.stored_energy), (at_limit.force, at_limit.stored_energy));
+    assert!((respond(limit).force - 500.0 * (overlap - 0.05 * 1e-3)).abs() < 1e-15);
+}

@@ -1,58 +1,14 @@
-//! Plastic contacts, bare and adhesive, on single pairs: against closed forms and published values.
+//! Plastic contacts in straight lines, bare and adhesive, on single pairs: against closed forms and published values.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
 use pulvis_contact::catalogue::Values;
-use pulvis_contact::normal::{Eepa, Kempton, Molerus};
-use pulvis_contact::theory::{WaltonBraunPair, eepa};
-use pulvis_contact::{ContactModel, Memory, Normal, NormalLaw, NormalMotion, NormalResponse, Pair};
+use pulvis_contact::normal::{Kempton, Molerus, WaltonBraun};
+use pulvis_contact::theory::WaltonBraunPair;
+use pulvis_contact::{ContactModel, Luding, Normal, NormalLaw, NormalMotion, Pair};
 use pulvis_math::Vector3;
 use pulvis_testkit::bodies::{Couple, Sphere};
-
-fn assert_printed(found: f64, printed: f64, digits: i32) {
-    let allowed = 0.51 * 10_f64.powi(1 - digits);
-    assert!((found / printed - 1.0).abs() < allowed, "{found}, printed {printed}");
-}
-
-/// A law by its name, unwrapped from the catalogue.
-fn built<N: NormalLaw>(name: &str, values: &Values) -> N {
-    *N::of(&Normal::build(name, values).unwrap().unwrap()).unwrap()
-}
-
-fn refused(name: &str, values: &Values) -> String {
-    Normal::build(name, values).unwrap().unwrap_err().to_string()
-}
-
-/// One contact at rest at one overlap after the other, and what it has lost.
-struct Contact<N: NormalLaw> {
-    law: N,
-    pair: Pair,
-    memory: N::Memory<f64>,
-    lost: f64,
-}
-
-impl<N: NormalLaw> Contact<N> {
-    fn new(law: N, pair: Pair) -> Self {
-        Self { law, pair, memory: Default::default(), lost: 0.0 }
-    }
-
-    fn go(&mut self, overlap: f64) -> NormalResponse {
-        let answer = self.law.respond(&NormalMotion::at_rest(&self.pair, overlap), &mut self.memory);
-        self.lost += answer.dissipated_plastic + answer.dissipated_adhesive;
-        answer
-    }
-
-    /// The work done so far, as the books say.
-    fn work(&self, answer: &NormalResponse) -> f64 {
-        self.lost + answer.stored_energy + answer.adhesive_potential
-    }
-
-    fn columns(&self) -> Vec<f64> {
-        let mut columns = vec![0.0; <N::Memory<f64> as Memory<f64>>::COLUMNS];
-        self.memory.store(|index, value| columns[index] = value);
-        columns
-    }
-}
+use pulvis_testkit::loading::{Loading, assert_printed, built, refused};
 
 /// A wall collision from touch until the force has come back to zero: velocity over that before, and duration [s].
 fn rebound(law: &Normal, mass: f64, speed: f64, dt: f64) -> (f64, f64) {
@@ -103,10 +59,7 @@ fn walton_and_brauns_springs_rebound_as_their_closed_forms_say() {
 #[test]
 fn a_contact_of_walton_and_braun_remembers_its_largest_overlap_until_the_bodies_part() {
     let values = Values::new().with("k1", 100.0).with("k2", 400.0);
-    let mut contact = Contact::<pulvis_contact::normal::WaltonBraun>::new(
-        built("walton-braun", &values),
-        Pair::wall(1e-6, 1e-3),
-    );
+    let mut contact = Loading::<WaltonBraun>::new(built("walton-braun", &values), Pair::wall(1e-6, 1e-3));
     assert!((contact.go(4e-6).force / 4e-4 - 1.0).abs() < 1e-15);
     // Force-free at 3 µm; below it nothing, and re-loading follows k2.
     assert_eq!(contact.go(1e-6).force, 0.0);
@@ -118,105 +71,6 @@ fn a_contact_of_walton_and_braun_remembers_its_largest_overlap_until_the_bodies_
     assert!((contact.go(1e-6).force / 1e-4 - 1.0).abs() < 1e-15, "parted bodies have forgotten");
 }
 
-/// k1, λ_p, n, x, f_0, Δγ, speed; then D, δ_p, δ_min [m], k_adh [SI] and e, with R = 5e-4 m and m_r = 1e-6 kg.
-const EEPA: [([f64; 7], [f64; 5]); 3] = [
-    (
-        [1e6, 0.5, 1.5, 1.5, 0.0, 1.0, 0.1],
-        [
-            2.7464013582652942e-6,
-            1.7301244413691577e-6,
-            1.6800879640857165e-6,
-            90008.1367605938,
-            0.6462293722857434,
-        ],
-    ),
-    (
-        [1e6, 0.9, 1.5, 5.0, 1e-4, 10.0, 0.1],
-        [2.807067287203909e-6, 2.616663216359911e-6, 2.516349685068587e-6, 2.38924168068622e25, 0.0],
-    ),
-    (
-        [1e3, 0.7, 1.0, 1.0, 0.0, 2.0, 0.2],
-        [
-            6.324555320336759e-6,
-            4.427188724235731e-6,
-            4.239059441382402e-6,
-            147.93319560213413,
-            0.4802010134875105,
-        ],
-    ),
-];
-
-fn eepa_law([k1, lambda_p, n, x, f_0, energy, _]: [f64; 7]) -> Eepa {
-    let values = Values::new().with("k1", k1).with("lambda_p", lambda_p).with("exponent", n);
-    let values = values.with("adhesion_exponent", x).with("f_0", f_0).with("surface_energy", energy);
-    built("eepa", &values)
-}
-
-#[test]
-fn the_edinburgh_law_has_the_published_points_and_restitution() {
-    let mass = 1e-6;
-    for (parameters, [overlap_max, plastic_overlap, limit, k_adh, restitution]) in EEPA {
-        let [k1, _, n, x, f_0, _, speed] = parameters;
-        let mut contact = Contact::new(eepa_law(parameters), Pair::wall(mass, 5e-4));
-        let kinetic = 0.5 * mass * speed * speed;
-        let deepest = contact.go(overlap_max);
-        // The values are rounded to sixteen digits; powers of up to five multiply that.
-        let close = |found: f64, expected: f64| {
-            assert!((found / expected - 1.0).abs() < 1e-13, "{found}, expected {expected}");
-        };
-        close(deepest.force, k1 * overlap_max.powf(n) - f_0);
-        close(contact.work(&deepest), kinetic);
-        close(contact.columns()[0], plastic_overlap);
-        close(contact.columns()[1], k_adh);
-        // Two hundred times greater forces cancel there.
-        let begins = contact.go(limit);
-        let pull = k_adh * limit.powf(x);
-        assert!((begins.force / (-pull - f_0) - 1.0).abs() < 1e-12, "{}", begins.force);
-        assert!(begins.friction_reference < 1e-12 * pull, "{}", begins.friction_reference);
-        // Below, the pull falls along the limit.
-        close(contact.go(0.5 * limit).force, -k_adh * (0.5 * limit).powf(x) - f_0);
-        let apart = contact.go(0.0);
-        assert_eq!((apart.force, apart.stored_energy), (0.0, 0.0));
-        let found = (1.0 - contact.lost / kinetic).max(0.0).sqrt();
-        assert!((found - restitution).abs() < 1e-12, "{found}, expected {restitution}");
-    }
-}
-
-#[test]
-fn without_adhesion_the_edinburgh_law_rebounds_alike_at_any_speed() {
-    let cases = [
-        (0.5, 1.0, std::f64::consts::FRAC_1_SQRT_2),
-        (0.5, 1.5, 0.6670388200256075),
-        (0.9, 1.5, 0.2903302414718939),
-    ];
-    for (lambda_p, n, restitution) in cases {
-        // The third has lost two digits: 1 − L^(n+1) and the term that is taken from it are alike.
-        let theory = eepa::restitution_without_adhesion(lambda_p, n);
-        assert!((theory - restitution).abs() < 1e-14, "{theory}, expected {restitution}");
-        for overlap in [1e-8, 1e-6, 1e-4] {
-            let law = eepa_law([1e6, lambda_p, n, n, 0.0, 0.0, 0.0]);
-            let mut contact = Contact::new(law, Pair::wall(1e-6, 5e-4));
-            let answer = contact.go(overlap);
-            let work = contact.work(&answer);
-            contact.go(-1e-9);
-            let found = (1.0 - contact.lost / work).sqrt();
-            assert!((found - restitution).abs() < 1e-13, "{found}, expected {restitution}");
-        }
-    }
-}
-
-#[test]
-fn a_reference_overlap_scales_the_stiffnesses_of_the_edinburgh_law() {
-    let values = Values::new().with("k1", 1e3).with("lambda_p", 0.5).with("k_adh", 50.0);
-    let law: Eepa = built("eepa", &values.with("adhesion_exponent", 3.0).with("reference_overlap", 1e-6));
-    let mut contact = Contact::new(law, Pair::wall(1e-6, 5e-4));
-    assert!((contact.go(1e-6).force / 1e-3 - 1.0).abs() < 1e-14);
-    assert!((contact.go(4e-6).force / 8e-3 - 1.0).abs() < 1e-14);
-    // On the limit, k_adh ℓ (δ/ℓ)³.
-    let force = contact.go(0.5e-6).force;
-    assert!((force / (-50.0 * 1e-6 * 0.125) - 1.0).abs() < 1e-13, "{force}");
-}
-
 #[test]
 fn the_pull_off_force_after_molerus_grows_with_the_load() {
     // F_H0, F_N, p_vdw, p_f and F_H.
@@ -224,7 +78,7 @@ fn the_pull_off_force_after_molerus_grows_with_the_load() {
     for ([f_h0, load, vdw, yields], pull_off) in cases {
         let values = Values::new().with("k1", 10.0).with("k2", 40.0).with("f_h0", f_h0);
         let law: Molerus = built("molerus", &values.with("vdw_pressure", vdw).with("yield_pressure", yields));
-        let mut contact = Contact::new(law, Pair::wall(1e-14, 1e-6));
+        let mut contact = Loading::new(law, Pair::wall(1e-14, 1e-6));
         let overlap_max = (load + f_h0) / 10.0;
         assert!((contact.go(overlap_max).force / load - 1.0).abs() < 1e-14);
         for overlap in [0.5, 0.3, 0.01] {
@@ -274,4 +128,34 @@ fn the_attraction_after_kempton_acts_over_the_area_in_which_the_spheres_intersec
         let leading = 2.0 * std::f64::consts::PI * effective * 1e-13;
         assert!((area(radius_i, radius_j, 1e-13) / leading - 1.0).abs() < 1e-9);
     }
+}
+
+#[test]
+fn a_tuned_plasticity_depth_moves_the_limit_and_leaves_softer_contacts_alone() {
+    let values = Values::new().with("k1", 100.0).with("kp", 500.0).with("kc", 100.0 / 9.0);
+    // φ_f, φ_f' and kp' as printed for S1 figure 9.
+    for (phi_f, tuned_phi_f, kp) in
+        [(0.05, 0.1, 827.9215610874), (0.1, 0.5, 1794.4271909999), (0.05, 0.5, 3397.0562748477)]
+    {
+        let values = values.clone().with("phi_f", phi_f);
+        let plain: Luding = built("luding", &values);
+        let tuned: Luding = built("luding", &values.clone().with("tuned_phi_f", tuned_phi_f));
+        assert_printed(tuned.kp, kp, 13);
+        assert_eq!((tuned.phi_f, tuned.k1, tuned.kc), (tuned_phi_f, plain.k1, plain.kc));
+        let pair = Pair::wall(1e-6, 1e-3);
+        let limit: f64 = plain.plastic_limit(&pair);
+        for share in [0.1, 0.5, 0.99] {
+            let forces = [plain, tuned].map(|law| {
+                let mut contact = Loading::new(law, pair);
+                contact.go(share * limit);
+                contact.go(0.8 * share * limit).force
+            });
+            assert!((forces[0] / forces[1] - 1.0).abs() < 1e-13, "{share}: {forces:?}");
+        }
+    }
+    let error = refused(
+        "luding",
+        &values.with("phi_f", 0.05).with("tuned_phi_f", 0.5).with_choice("interpolation", "square-root"),
+    );
+    assert!(error.starts_with("`tuned_phi_f` is given beside another interpolation"), "{error}");
 }

@@ -12,6 +12,7 @@
 //! | [`contact`] | whole contacts: frame, exchange, mirror, rotation, energy, lanes |
 //! | [`bodies`] | two spheres or a sphere and a wall, integrated, for closed forms |
 //! | [`collisions`] | head-on collisions with a wall, integrated, for closed forms |
+//! | [`loading`] | contacts at rest at one overlap after the other, for published points |
 //! | [`reference`] | a whole engine without lists, for the fast one to be held against |
 //!
 //! `PULVIS_TESTKIT_CASES` multiplies the number of random cases, `PULVIS_TESTKIT_SEED` moves them.
@@ -26,6 +27,7 @@ pub mod collisions;
 pub mod contact;
 mod draw;
 mod live;
+pub mod loading;
 pub mod noncontact;
 pub mod normal;
 pub mod parameters;

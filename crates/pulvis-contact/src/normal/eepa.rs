@@ -85,16 +85,6 @@ impl<R: Real> Memory<R> for EepaMemory<R> {
     }
 }
 
-const fn number(
-    name: &'static str,
-    symbol: &'static str,
-    dimension: Dimension,
-    range: Range,
-    meaning: &'static str,
-) -> Parameter {
-    Parameter::number(name, symbol, dimension, range, meaning)
-}
-
 impl Law for Eepa {
     const ENTRY: LawEntry = LawEntry {
         role: Role::Normal,
@@ -108,23 +98,23 @@ k_adh = f_min/δ_min^x            f_min = (3/2) π Δγ √(2 δ_p R) ≤ ½ k2 
 k1 δ^n = k1 δ (δ/ℓ)^(n−1),  k_adh δ^x = k_adh δ (δ/ℓ)^(x−1)",
         source: "Thakur, Morrissey, Sun, Chen & Ooi, Granular Matter 16, 383 (2014); the exponent x of the adhesive limit after Morrissey (2013), not confirmed against the original",
         parameters: &[
-            number(
+            Parameter::number(
                 "k1",
                 "k₁",
                 Dimension::STIFFNESS,
                 Range::Positive,
                 "loading stiffness: (4/3) E* √R with n = 1.5, 2 E* R with n = 1",
             ),
-            number(
+            Parameter::number(
                 "lambda_p",
                 "λ_p",
                 Dimension::NONE,
                 Range::Within(0.0, 1.0),
                 "plasticity 1 − k1/k2, below 1",
             ),
-            number("exponent", "n", Dimension::NONE, Range::AtLeast(1.0), "exponent of loading, at most 3")
+            Parameter::number("exponent", "n", Dimension::NONE, Range::AtLeast(1.0), "exponent of loading, at most 3")
                 .or(1.5),
-            number(
+            Parameter::number(
                 "adhesion_exponent",
                 "x",
                 Dimension::NONE,
@@ -132,9 +122,9 @@ k1 δ^n = k1 δ (δ/ℓ)^(n−1),  k_adh δ^x = k_adh δ (δ/ℓ)^(x−1)",
                 "exponent of the adhesive limit, at most 20; without it that of loading",
             )
             .optional(),
-            number("f_0", "f_0", Dimension::FORCE, Range::NonNegative, "constant pull of bodies that touch")
+            Parameter::number("f_0", "f_0", Dimension::FORCE, Range::NonNegative, "constant pull of bodies that touch")
                 .or(0.0),
-            number(
+            Parameter::number(
                 "surface_energy",
                 "Δγ",
                 Dimension::STIFFNESS,
@@ -142,7 +132,7 @@ k1 δ^n = k1 δ (δ/ℓ)^(n−1),  k_adh δ^x = k_adh δ (δ/ℓ)^(x−1)",
                 "adhesive surface energy (1 J/m^2 = 1 N/m); sets k_adh",
             )
             .optional(),
-            number(
+            Parameter::number(
                 "k_adh",
                 "k_adh",
                 Dimension::STIFFNESS,
@@ -150,7 +140,7 @@ k1 δ^n = k1 δ (δ/ℓ)^(n−1),  k_adh δ^x = k_adh δ (δ/ℓ)^(x−1)",
                 "constant stiffness of the adhesive limit, in place of a surface energy",
             )
             .optional(),
-            number(
+            Parameter::number(
                 "reference_overlap",
                 "ℓ",
                 Dimension::LENGTH,
@@ -160,7 +150,7 @@ k1 δ^n = k1 δ (δ/ℓ)^(n−1),  k_adh δ^x = k_adh δ (δ/ℓ)^(x−1)",
             .or(1.0),
         ],
         memory: &["plastic_overlap [m]", "adhesion_stiffness [N/m^x]"],
-        closed_form: "restitution without adhesion in pulvis_contact::theory::eepa; whole cycles (law_plastic)",
+        closed_form: "restitution without adhesion in pulvis_contact::theory::eepa; whole cycles (law_eepa)",
         example: "law = \"eepa\"\nk1 = \"1e6 N/m\"\nlambda_p = 0.5\nsurface_energy = \"1 N/m\"",
     };
 
@@ -279,11 +269,7 @@ impl Eepa {
     /// ∫ k2 (δ^n − δ_p^n) dδ from δ_p on [J].
     #[inline(always)]
     fn stored_energy<R: Real>(&self, at: Strain<R>, plastic: Strain<R>) -> R {
-        let n = self.power.exponent();
-        let (one, share) = (R::splat(1.0 / (n + 1.0)), R::splat(n / (n + 1.0)));
-        let terms = (one * at.power - plastic.power) * at.overlap + share * plastic.power * plastic.overlap;
-        // The three terms cancel at δ = δ_p.
-        (R::splat(self.k2) * terms).max(R::zero())
+        R::splat(self.k2) * self.power.area_above(at.overlap, at.power, plastic.overlap, plastic.power)
     }
 
     /// What the adhesive limit has lost at its end, where the contact holds the point `at`: work and stored energy.

@@ -86,8 +86,9 @@ impl Law for Luding {
 D   = min(max(D, δ), δ_p)        largest overlap, δ_p = kp/(kp − k1) φ_f a12
 k2  = k1 + (kp − k1) D/δ_p       (or with √(D/δ_p), or constant kp)
 f   = k2 (δ − δ_0)               δ_0 = (1 − k1/k2) D;  k1 δ while D grows, kp (δ − φ_f a12) beyond δ_p
-f   = −kc δ                      where that is larger; D then shrinks with δ along its k2 line",
-        source: "Luding, Granular Matter 10, 235 (2008), eqs. 6-8; Singh, Magnanimo & Luding, arXiv:1503.03720, eqs. 5-10, D.1",
+f   = −kc δ                      where that is larger; D then shrinks with δ along its k2 line
+with φ_f': kp' = k1 + AB/2 + √((AB/2)² + k1 AB) in place of kp, A = (kp − k1)²/kp, B = φ_f'/φ_f: the same k2(D)",
+        source: "Luding, Granular Matter 10, 235 (2008), eqs. 6-8; Singh, Magnanimo & Luding, arXiv:1503.03720, eqs. 5-10, A.3, D.1",
         parameters: &[
             Parameter::number(
                 "k1",
@@ -117,6 +118,14 @@ f   = −kc δ                      where that is larger; D then shrinks with δ
                 Range::Within(0.0, 1.0),
                 "plasticity depth: largest force-free overlap over the harmonic mean radius a12",
             ),
+            Parameter::number(
+                "tuned_phi_f",
+                "φ_f'",
+                Dimension::NONE,
+                Range::Within(0.0, 1.0),
+                "plasticity depth to which the limit is moved: kp and phi_f then only say how softer contacts behave",
+            )
+            .optional(),
             Parameter::choice(
                 "interpolation",
                 "",
@@ -143,7 +152,8 @@ f   = −kc δ                      where that is larger; D then shrinks with δ
             phi_f: values.number("phi_f")?,
             interpolation,
         }
-        .checked()
+        .checked()?
+        .tuned(values.optional_number("tuned_phi_f"))
     }
 }
 
@@ -158,6 +168,24 @@ impl Luding {
             });
         }
         Ok(self)
+    }
+
+    /// The law whose limit is moved to the plasticity depth `tuned`, with the same k2 of contacts below the old limit. S1
+    /// appendix A, (A.3).
+    fn tuned(self, tuned: Option<f64>) -> Result<Self, InvalidParameter> {
+        let Some(phi_f) = tuned else { return Ok(self) };
+        if self.interpolation != Interpolation::Linear {
+            return Err(InvalidParameter::Inconsistent {
+                name: "tuned_phi_f",
+                found: "given beside another interpolation".to_owned(),
+                expected: "interpolation = \"linear\"".to_owned(),
+                reason: "only a k2 that grows linearly can be kept",
+            });
+        }
+        let excess = self.kp - self.k1;
+        let half = 0.5 * (phi_f / self.phi_f) * excess * (excess / self.kp);
+        let kp = self.k1 + half + (half * (half + 2.0 * self.k1)).sqrt();
+        Ok(Self { kp, phi_f, ..self })
     }
 
     /// Whether there is a finite plastic limit overlap δ_p.
@@ -356,24 +384,4 @@ fn largest_cubic_root<R: Real>(y: R, c: f64) -> R {
         }
     }
     root
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_contact_that_remembers_more_than_its_law_allows_is_fully_plastic_and_no_stiffer() {
-        let law =
-            Luding { k1: 100.0, kp: 500.0, kc: 50.0, phi_f: 0.05, interpolation: Interpolation::Linear };
-        let pair = Pair::spheres(1e-6, 1e-6, 1e-3, 1e-3);
-        let limit: f64 = law.plastic_limit(&pair);
-        let overlap = 0.9 * limit;
-        let respond = |overlap_max: f64| {
-            law.respond(&NormalMotion::at_rest(&pair, overlap), &mut LudingMemory { overlap_max })
-        };
-        let (beyond, at_limit) = (respond(1.5 * limit), respond(limit));
-        assert_eq!((beyond.force, beyond.stored_energy), (at_limit.force, at_limit.stored_energy));
-        assert!((respond(limit).force - 500.0 * (overlap - 0.05 * 1e-3)).abs() < 1e-15);
-    }
 }

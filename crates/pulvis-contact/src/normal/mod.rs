@@ -18,6 +18,7 @@ mod kempton;
 mod linear;
 mod luding;
 mod molerus;
+mod pasha;
 mod response;
 mod walton_braun;
 mod walton_braun_variable;
@@ -32,6 +33,7 @@ pub use kempton::Kempton;
 pub use linear::Linear;
 pub use luding::{Interpolation, Luding, LudingMemory};
 pub use molerus::{Molerus, MolerusMemory};
+pub use pasha::{Pasha, PashaMemory};
 pub use response::NormalResponse;
 pub use walton_braun::WaltonBraun;
 pub use walton_braun_variable::WaltonBraunVariable;
@@ -251,7 +253,7 @@ macro_rules! normal_laws {
 normal_laws![
     common: Linear, Luding;
     others:
-        Dahneke, Dmt, Eepa, Hertz, Jkr, Kempton, Molerus, WaltonBraun, WaltonBraunVariable, WaltonJohnson
+        Dahneke, Dmt, Eepa, Hertz, Jkr, Kempton, Molerus, Pasha, WaltonBraun, WaltonBraunVariable, WaltonJohnson
 ];
 
 macro_rules! forwarded {
