@@ -42,7 +42,7 @@ pub mod viscosity;
 pub use conventions::Conventions;
 pub use energy::ContactEnergies;
 pub use expected::ExpectedLoading;
-pub use friction::{Friction, Mindlin, SpringSlider};
+pub use friction::{ContactScale, Friction, Mindlin, SpringSlider};
 pub use kinematics::{ContactInputs, ContactKinematics, NormalMotion};
 pub use memory::{Columns, Memory, MemoryLayout, MemorySlots};
 pub use model::{ContactLaws, ContactModel};

@@ -5,7 +5,7 @@ use pulvis_math::Real;
 use crate::conventions::Conventions;
 use crate::energy::ContactEnergies;
 use crate::expected::ExpectedLoading;
-use crate::friction::Friction;
+use crate::friction::{ContactScale, Friction};
 use crate::kinematics::{ContactInputs, ContactKinematics, NormalMotion};
 use crate::levels;
 use crate::memory::{Columns, MemoryLayout, MemorySlots};
@@ -110,6 +110,16 @@ impl ContactModel {
         self.laws.respond::<R, _, _, { levels::ALL }>(&self.normal, &slots, inputs, columns)
     }
 
+    /// How large and how stiff the contact of two bodies becomes under the loading that is expected.
+    pub fn scale(&self, pair: &Pair) -> ContactScale {
+        let expected = &self.laws.expected;
+        ContactScale {
+            contact_radius: self.normal.expected_contact_radius(pair, expected),
+            normal_stiffness: self.normal.max_stiffness(pair, expected),
+            harmonic_radius: pair.harmonic_radius(),
+        }
+    }
+
     /// Whether the engine's loops for common contacts can compute this one: they are compiled for the normal law
     /// itself, and hold nothing but dashpots and spring-sliders beside it.
     pub fn is_common(&self) -> bool {
@@ -139,6 +149,11 @@ impl ContactLaws {
     /// Whether a law against sliding, rolling or torsion takes its stiffness from the radius of the contact area.
     pub fn needs_contact_radius(&self) -> bool {
         self.frictions().any(Friction::needs_contact_radius)
+    }
+
+    /// Whether a law against sliding, rolling or torsion takes its stiffness from that of the normal force.
+    pub fn needs_normal_stiffness(&self) -> bool {
+        self.frictions().any(Friction::needs_normal_stiffness)
     }
 
     /// Whether normal law and attraction may lose energy: one that remembers nothing cannot.

@@ -25,6 +25,8 @@ pub(crate) struct Resistance<'a, R: Real> {
     motion: &'a ContactKinematics<R>,
     in_contact: R::Mask,
     contact_radius: R,
+    pull_off_force: R,
+    normal_stiffness: R,
     friction_reference: R,
     overlap: R,
     overlap_mid: R,
@@ -78,6 +80,8 @@ impl<'a, R: Real> Resistance<'a, R> {
             motion,
             in_contact,
             contact_radius: normal.contact_radius,
+            pull_off_force: normal.pull_off_force,
+            normal_stiffness: normal.stiffness,
             friction_reference: friction_reference.keep_where(in_contact),
             overlap,
             overlap_mid: overlap + half * opening,
@@ -110,7 +114,7 @@ impl<'a, R: Real> Resistance<'a, R> {
         let velocity = self.where_damped(law, velocity);
         let surface_mid = motion.angular_velocity_i_mid * mid_i + motion.angular_velocity_j_mid * mid_j;
         let velocity_mid = self.sideways_mid + self.normal_mid.cross(surface_mid);
-        let stretch = Stretch { step: self, velocity, velocity_mid, start, columns };
+        let stretch = Stretch { step: self, velocity, velocity_mid, lever: R::one(), start, columns };
         let Some(answer) = ask::<R, N, _>(law, stretch) else { return };
         let moment = answer.force.cross(normal);
         response.force += answer.force;
@@ -139,7 +143,7 @@ impl<'a, R: Real> Resistance<'a, R> {
         });
         let rolling_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
         let velocity_mid = self.normal_mid.cross(rolling_mid) * -lever_mid;
-        let stretch = Stretch { step: self, velocity, velocity_mid, start, columns };
+        let stretch = Stretch { step: self, velocity, velocity_mid, lever, start, columns };
         let Some(answer) = ask::<R, N, _>(law, stretch) else { return };
         let energies = &mut response.energies;
         energies.elastic_rolling = answer.stored_energy;
@@ -164,7 +168,7 @@ impl<'a, R: Real> Resistance<'a, R> {
         }
         let twisting_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
         let velocity_mid = self.normal_mid.dot(twisting_mid) * lever_mid;
-        let twist = Twist { step: self, velocity, velocity_mid, start, columns };
+        let twist = Twist { step: self, velocity, velocity_mid, lever, start, columns };
         let Some(answer) = ask::<R, N, _>(law, twist) else { return };
         let energies: &mut ContactEnergies<R> = &mut response.energies;
         energies.elastic_torsion = answer.stored_energy;
@@ -210,7 +214,7 @@ impl<'a, R: Real> Resistance<'a, R> {
 
     /// The motion that springs follow, with the velocity that dashpots see.
     #[inline(always)]
-    fn spring_motion<T: Tangent<R>>(&self, velocity: T, displacement: T) -> SpringMotion<T, R> {
+    fn spring_motion<T: Tangent<R>>(&self, velocity: T, displacement: T, lever: R) -> SpringMotion<T, R> {
         SpringMotion {
             velocity: T::select(self.in_contact, velocity, T::zero()),
             displacement,
@@ -218,6 +222,9 @@ impl<'a, R: Real> Resistance<'a, R> {
             in_contact: self.in_contact,
             friction_reference: self.friction_reference,
             contact_radius: self.contact_radius,
+            pull_off_force: self.pull_off_force,
+            normal_stiffness: self.normal_stiffness,
+            lever,
             slip_dashpot: self.conventions.slip_dashpot,
         }
     }
@@ -284,6 +291,7 @@ struct Stretch<'a, R: Real, C: ?Sized> {
     step: &'a Resistance<'a, R>,
     velocity: Vector3<R>,
     velocity_mid: Vector3<R>,
+    lever: R,
     start: usize,
     columns: &'a mut C,
 }
@@ -298,13 +306,13 @@ impl<R: Real, C: Columns<R> + ?Sized> FrictionVisitor for Stretch<'_, R, C> {
     /// the force works all the time. It is of second order without a dashpot.
     #[inline(always)]
     fn visit<F: FrictionLaw>(self, law: &F) -> Self::Output {
-        let Self { step, velocity, velocity_mid, start, columns } = self;
+        let Self { step, velocity, velocity_mid, lever, start, columns } = self;
         let before: Vector3<R> = memory::load_vector(columns, start);
         let mut scalars: F::Scalars<R> = memory::load(columns, start + 3);
         let (carried, displacement) = step.carried(before, velocity_mid * step.elapsed);
         let mut spring = carried;
         let normal = step.motion.normal;
-        let motion = step.spring_motion(velocity, displacement.tangential_to(normal));
+        let motion = step.spring_motion(velocity, displacement.tangential_to(normal), lever);
         let (mut answer, slips) = law.respond(&motion, &mut spring, &mut scalars);
         if step.works_while_open(slips) {
             let mean = law.elastic_force((carried + spring) * R::splat(0.5));
@@ -324,6 +332,7 @@ struct Twist<'a, R: Real, C: ?Sized> {
     step: &'a Resistance<'a, R>,
     velocity: R,
     velocity_mid: R,
+    lever: R,
     start: usize,
     columns: &'a mut C,
 }
@@ -333,11 +342,11 @@ impl<R: Real, C: Columns<R> + ?Sized> FrictionVisitor for Twist<'_, R, C> {
 
     #[inline(always)]
     fn visit<F: FrictionLaw>(self, law: &F) -> Self::Output {
-        let Self { step, velocity, velocity_mid, start, columns } = self;
+        let Self { step, velocity, velocity_mid, lever, start, columns } = self;
         let before = Along(columns.get(start));
         let mut scalars: F::Scalars<R> = memory::load(columns, start + 1);
         let displacement = Along(velocity_mid * step.elapsed);
-        let motion = step.spring_motion(Along(velocity), displacement);
+        let motion = step.spring_motion(Along(velocity), displacement, lever);
         let mut spring = before;
         let (mut answer, slips) = law.respond(&motion, &mut spring, &mut scalars);
         if step.works_while_open(slips) {

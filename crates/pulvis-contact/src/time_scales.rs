@@ -54,8 +54,8 @@ impl ContactModel {
         let pair = body_j.pair_with(body_i);
         let modes = Modes::new(&pair, body_i, body_j);
         let laws = &self.laws;
-        let radius = self.normal.expected_contact_radius(&pair, &laws.expected);
-        let stiffness = |law: &Option<Friction>| law.as_ref().map_or(0.0, |law| law.max_stiffness(radius));
+        let scale = self.scale(&pair);
+        let stiffness = |law: &Option<Friction>| law.as_ref().map_or(0.0, |law| law.max_stiffness(&scale));
         let dashpot = |law: &Option<Friction>| law.as_ref().map_or(0.0, Friction::dashpot);
         let (normal_stiffness, normal_dashpot) = self.steepest_normal(body_i, body_j);
         let squares = (normal_stiffness * pair.inverse_reduced_mass())

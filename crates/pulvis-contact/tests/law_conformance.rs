@@ -45,6 +45,11 @@ fn viscous_laws_keep_their_promises() {
 }
 
 #[test]
+fn friction_laws_give_no_work_back() {
+    testkit::friction::check_all(1000);
+}
+
+#[test]
 fn whole_contacts_keep_their_promises() {
     testkit::contact::check_all(400);
 }

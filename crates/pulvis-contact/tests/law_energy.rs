@@ -36,9 +36,12 @@ fn closes_at_its_order(model: &ContactModel, dance: &Dance) {
     let [fine, coarse @ ..] = closing_errors(model, dance, [8000, 900, 1000, 1100]);
     let coarse = coarse.into_iter().fold(0.0, f64::max);
     let laws = &model.laws;
-    // Mindlin's law knows no other way.
+    // Only the spring-slider knows another way.
     let in_series = laws.conventions.slip_dashpot == SlipDashpot::Series
-        || matches!(laws.sliding, Some(Friction::Mindlin(_)));
+        || [laws.sliding, laws.rolling, laws.torsion]
+            .into_iter()
+            .flatten()
+            .any(|law| law.dashpot() != 0.0 && !matches!(law, Friction::SpringSlider(_)));
     // Bodies that detach and attach anew while they overlap: in the step of the event the books are half-way.
     let snaps = matches!(model.normal, Normal::Pasha(_));
     if snaps || in_series && laws.has_resistance_dashpot() {

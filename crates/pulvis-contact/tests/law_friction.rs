@@ -10,6 +10,7 @@ use pulvis_contact::{ContactLaws, ContactModel, Conventions, Linear, Mindlin, Sp
 use pulvis_math::Vector3;
 use pulvis_testkit::bodies::pair_motion;
 use pulvis_testkit::contact::{Dance, deficits};
+use pulvis_testkit::friction::Load;
 use pulvis_testkit::{Draw, LiveContact, for_each_case};
 
 /// A displacement [m] within `elapsed` [s] of a closed contact.
@@ -19,16 +20,7 @@ fn moved<T: Tangent<f64>>(
     reference: f64,
     radius: f64,
 ) -> SpringMotion<T, f64> {
-    let velocity = displacement.scaled(1.0 / elapsed);
-    SpringMotion {
-        velocity,
-        displacement,
-        elapsed,
-        in_contact: true,
-        friction_reference: reference,
-        contact_radius: radius,
-        slip_dashpot: SlipDashpot::Series,
-    }
+    Load::new(reference, radius).moved(displacement, elapsed)
 }
 
 fn magnitude(low: f64, high: f64) -> impl Strategy<Value = f64> {

@@ -16,6 +16,7 @@ use pulvis_contact::{
 };
 use pulvis_math::Vector3;
 use pulvis_testkit::bodies::{Couple, Sphere};
+use pulvis_testkit::oscillation::oscillates_at;
 
 const MASS: f64 = 1e-3;
 const RADIUS: f64 = 1e-2;
@@ -61,36 +62,6 @@ fn resting_pair(laws: ContactLaws, with_partner: bool) -> Couple {
     couple.step(0.0);
     assert!(couple.normal_force.abs() < 1e-12, "{} N", couple.normal_force);
     couple
-}
-
-/// Angular frequency of the oscillation of `coordinate`, from its first and its twenty-first zero in
-/// the upward direction [rad/s].
-fn frequency(couple: &mut Couple, dt: f64, coordinate: impl Fn(&Couple) -> f64) -> f64 {
-    let mut crossings = Vec::new();
-    let (mut before, mut time) = (coordinate(couple), 0.0);
-    while crossings.len() < 21 {
-        couple.step(dt);
-        let now = coordinate(couple);
-        if before < 0.0 && now >= 0.0 {
-            crossings.push(time + dt * before / (before - now));
-        }
-        (before, time) = (now, time + dt);
-        assert!(time < 1.0, "no oscillation");
-    }
-    2.0 * PI * 20.0 / (crossings[20] - crossings[0])
-}
-
-/// Checks an oscillation's frequency at two steps: second order, and right when extrapolated.
-fn oscillates_at(expected: f64, start: impl Fn() -> Couple, coordinate: impl Fn(&Couple) -> f64 + Copy) {
-    let period = 2.0 * PI / expected;
-    let [coarse, fine] =
-        [50.0, 100.0].map(|steps| frequency(&mut start(), period / steps, coordinate) / expected - 1.0);
-    // Velocity-Verlet is fast by (ω dt)²/24.
-    let leading = (2.0 * PI / 50.0_f64).powi(2) / 24.0;
-    assert!((coarse / leading - 1.0).abs() < 0.05, "{coarse}, expected {leading}");
-    assert!((coarse / fine - 4.0).abs() < 0.1, "{coarse} falls to {fine}");
-    // Left over: the next order, (ω dt)⁴, 1e-6, and the overlap 1e-7 of the radius.
-    assert!((fine - 0.25 * leading).abs() < 2e-6, "{fine}");
 }
 
 #[test]

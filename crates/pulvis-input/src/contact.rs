@@ -7,7 +7,8 @@ use crate::problem::Problem;
 use crate::reader::TableReader;
 use pulvis_contact::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Role, Value, Values};
 use pulvis_contact::{
-    ContactLaws, ContactModel, Conventions, ExpectedLoading, NonContact, Normal, Viscosity, friction,
+    ContactLaws, ContactModel, Conventions, ExpectedLoading, Friction, NonContact, Normal, Pair, Viscosity,
+    friction,
 };
 
 /// A law by its name in the catalogue, with its parameters.
@@ -83,7 +84,12 @@ fn read_laws(mut table: TableReader<'_>, known: Known<'_>) -> Result<NamedContac
     let (sliding, rolling, torsion) = (slider(Role::Sliding), slider(Role::Rolling), slider(Role::Torsion));
     let conventions = read_choices(&mut table, known);
     let expected = read_choices(&mut table, known);
+    let without_area =
+        [&sliding, &rolling, &torsion].into_iter().find_map(|friction| lacks_area(&table, &normal, friction));
     table.finish();
+    if let Some(reported) = without_area {
+        return Err(reported);
+    }
     let (normal, normal_law) = normal?;
     let (noncontact, noncontact_law) = noncontact?;
     let (viscosity, viscosity_law) = viscosity?;
@@ -104,6 +110,28 @@ fn read_laws(mut table: TableReader<'_>, known: Known<'_>) -> Result<NamedContac
         expectation,
     ];
     Ok(NamedContact { model: ContactModel { normal, laws }, laws: named })
+}
+
+/// Reports a friction law that takes its stiffness from the contact area, beside a normal law that knows none: it would
+/// resist nothing.
+fn lacks_area(
+    contact: &TableReader<'_>,
+    normal: &Result<(Normal, NamedLaw), Reported>,
+    friction: &Result<(Option<Friction>, NamedLaw), Reported>,
+) -> Option<Reported> {
+    let (Ok((normal, normal_law)), Ok((Some(law), friction_law))) = (normal, friction) else { return None };
+    let pair = Pair::spheres(1.0, 1.0, 1.0, 1.0);
+    if !law.needs_contact_radius() || normal.expected_contact_radius(&pair, &ExpectedLoading::default()) > 0.0
+    {
+        return None;
+    }
+    let found = format!(
+        "\"{}\" follows the radius of the contact area, which the normal law \"{}\" does not know",
+        friction_law.name, normal_law.name
+    );
+    let expected =
+        "a normal law of elastic spheres, such as \"hertz\" or \"jkr\", or another law here".to_owned();
+    Some(contact.refuse(friction_law.role.key(), Problem::Rule { found, expected }))
 }
 
 /// The laws of the catalogue that can play a role.

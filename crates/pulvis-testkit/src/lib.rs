@@ -9,10 +9,12 @@
 //! | [`normal`] | forces along the line of centres: energy, continuity, history, lanes |
 //! | [`noncontact`] | attraction at a distance: potential, reach, hysteresis, lanes |
 //! | [`viscosity`] | dashpots: sign, bound, lanes |
+//! | [`friction`] | sliding, rolling and torsion: no path gives work back, energies close |
 //! | [`contact`] | whole contacts: frame, exchange, mirror, rotation, energy, lanes |
 //! | [`bodies`] | two spheres or a sphere and a wall, integrated, for closed forms |
 //! | [`collisions`] | head-on collisions with a wall, integrated, for closed forms |
 //! | [`loading`] | contacts at rest at one overlap after the other, for published points |
+//! | [`oscillation`] | frequencies of two bodies about their contact |
 //! | [`reference`] | a whole engine without lists, for the fast one to be held against |
 //!
 //! `PULVIS_TESTKIT_CASES` multiplies the number of random cases, `PULVIS_TESTKIT_SEED` moves them.
@@ -26,10 +28,12 @@ pub mod catalogue;
 pub mod collisions;
 pub mod contact;
 mod draw;
+pub mod friction;
 mod live;
 pub mod loading;
 pub mod noncontact;
 pub mod normal;
+pub mod oscillation;
 pub mod parameters;
 pub mod reference;
 pub mod viscosity;

@@ -1,8 +1,9 @@
 //! The tangential law of Mindlin for elastic spheres, with a memory that creates no energy.
 
-use pulvis_math::{Dimension, Mask, Real};
+use pulvis_math::{Dimension, Real};
 
-use super::{FrictionLaw, FrictionResponse, SpringMotion, Tangent};
+use super::force_memory::{Linear, SeriesSlider};
+use super::{ContactScale, FrictionLaw, FrictionResponse, SpringMotion, Tangent};
 use crate::catalogue::{Choice, InvalidParameter, LawEntry, Parameter, Range, Role, Values, mixing};
 
 /// Tangential stiffness k = 8 G* a that follows the radius a of the contact area, with a Coulomb limit.
@@ -111,69 +112,6 @@ pub(super) fn build(_role: Role, values: &Values) -> Result<Mindlin, InvalidPara
     })
 }
 
-/// `value` over `divisor` where that is positive, otherwise zero.
-#[inline(always)]
-fn quotient<R: Real>(value: R, divisor: R) -> R {
-    let positive = divisor.gt(R::zero());
-    (value / R::select(positive, divisor, R::one())).keep_where(positive)
-}
-
-/// What becomes of a contact that slips.
-struct Slip<T, R> {
-    force: T,
-    /// The part of the displacement that the spring takes, and the slip.
-    taken: T,
-    path: T,
-    /// One over the stiffness, zero where there is none [m/N].
-    flexibility: R,
-}
-
-impl Mindlin {
-    /// Force [N] and energy [J] that an area of the present stiffness can hold, and what it loses.
-    #[inline(always)]
-    fn receded<R: Real, T: Tangent<R>>(&self, force: T, energy: R, stiffness: R) -> (T, R, R) {
-        let (mut carried, mut left) = (force, energy);
-        let square = force.norm_squared();
-        let held = R::splat(2.0) * stiffness * energy;
-        let recedes = square.gt(held);
-        if recedes.any() {
-            let share = R::select(recedes, quotient(held, square), R::one());
-            carried = force.scaled(share);
-            left = energy * share;
-        }
-        if self.rescale == Rescale::Unloading {
-            // The energy is that of the force at this area, also when the area has grown: when it shrinks again,
-            // nothing else holds the force.
-            left = quotient(R::splat(0.5) * carried.norm_squared(), stiffness);
-        }
-        (carried, left, energy - left)
-    }
-
-    /// Slip with the slider in series with spring and dashpot, −f = T + k D + γ D/dt, solved for the part D of the
-    /// displacement that the spring takes.
-    #[inline(always)]
-    fn slip<R: Real, T: Tangent<R>>(
-        &self,
-        motion: &SpringMotion<T, R>,
-        carried: T,
-        stiffness: R,
-        limit: R,
-    ) -> Slip<T, R> {
-        let dashpot = R::splat(self.dashpot);
-        let mut trial = T::zero() - carried - motion.displacement.scaled(stiffness);
-        let flexibility = quotient(R::one(), stiffness);
-        let mut compliance = flexibility;
-        if self.dashpot != 0.0 {
-            trial = trial - motion.mean_velocity().scaled(dashpot);
-            compliance = motion.elapsed / (stiffness * motion.elapsed + dashpot);
-        }
-        let size = trial.norm_squared().sqrt();
-        let force = trial.scaled(quotient(limit.min(size), size));
-        let taken = (T::zero() - force - carried).scaled(compliance);
-        Slip { force, taken, path: motion.displacement - taken, flexibility }
-    }
-}
-
 impl FrictionLaw for Mindlin {
     /// The energy that the tangential force stores [J].
     type Scalars<R: Real> = [R; 1];
@@ -185,48 +123,16 @@ impl FrictionLaw for Mindlin {
         vector: &mut T,
         scalars: &mut [R; 1],
     ) -> (FrictionResponse<T, R>, R::Mask) {
-        let half = R::splat(0.5);
         let stiffness = R::splat(8.0 * self.effective_shear_modulus) * motion.contact_radius;
-        let (carried, energy, mut lost) = self.receded(*vector, scalars[0], stiffness);
-        // In the half kick before the area shrank the whole force did its work.
-        lost += (*vector - carried).scaled(half).dot(motion.displacement);
-        let mut damping = motion.velocity.scaled(R::splat(self.dashpot));
-        let mut force = T::zero() - carried - motion.displacement.scaled(stiffness);
-        if self.dashpot != 0.0 {
-            force = force - damping;
-        }
         let limit = R::splat(self.coefficient) * motion.friction_reference;
-        let slips = force.norm_squared().gt(limit * limit);
-        let (mut taken, mut path) = (motion.displacement, T::zero());
-        let mut flexibility = R::zero();
-        if slips.any() {
-            let slip = self.slip(motion, carried, stiffness, limit);
-            force = T::select(slips, slip.force, force);
-            taken = T::select(slips, slip.taken, taken);
-            path = T::select(slips, slip.path, path);
-            flexibility = slip.flexibility;
-        }
-        let after = carried + taken.scaled(stiffness);
-        let stored = energy + (carried + taken.scaled(half * stiffness)).dot(taken);
-        lost += (carried + after).scaled(half).dot(path);
-        let mut viscous_power = R::zero();
-        if self.dashpot != 0.0 {
-            damping = T::select(slips, T::zero() - force - after, damping);
-            damping = T::select(motion.in_contact, damping, T::zero());
-            // With the velocity at the end of the step: over the slip it adds up to the trapezoidal rule.
-            let path_now = motion.velocity.scaled(motion.elapsed) - taken;
-            lost += damping.dot(T::select(slips, path_now, T::zero()));
-            viscous_power = damping.norm_squared() * R::splat(1.0 / self.dashpot);
-        }
-        // Gross sliding forgets what is locked in; an open contact forgets all.
-        let own = half * after.norm_squared() * flexibility;
-        let kept = R::select(slips, own, stored).keep_where(motion.in_contact);
-        lost += stored - kept;
-        // An open contact has no area: it gives up its force without slipping.
-        let opens = !motion.in_contact & scalars[0].gt(R::zero());
-        *vector = T::select(motion.in_contact, after, T::zero());
-        scalars[0] = kept;
-        (FrictionResponse { force, stored_energy: kept, dissipated_slip: lost, viscous_power }, slips | opens)
+        let slider = SeriesSlider {
+            spring: Linear(stiffness),
+            dashpot: (self.dashpot != 0.0).then_some(R::splat(self.dashpot)),
+            static_limit: limit,
+            limit,
+            forgets_energy: self.rescale == Rescale::Unloading,
+        };
+        slider.respond(motion, vector, &mut scalars[0])
     }
 
     #[inline(always)]
@@ -244,8 +150,8 @@ impl FrictionLaw for Mindlin {
         self.dashpot
     }
 
-    fn max_stiffness(&self, contact_radius: f64) -> f64 {
-        8.0 * self.effective_shear_modulus * contact_radius
+    fn max_stiffness(&self, scale: &ContactScale) -> f64 {
+        8.0 * self.effective_shear_modulus * scale.contact_radius
     }
 
     const NEEDS_CONTACT_RADIUS: bool = true;

@@ -7,17 +7,28 @@ use crate::catalogue::{InvalidParameter, LawEntry, Role, Values};
 use crate::conventions::SlipDashpot;
 use crate::memory::Memory;
 
+mod constant_torque;
+mod elastic_plastic;
+mod force_memory;
+mod marshall;
 pub mod mindlin;
 mod none;
 mod rotation;
 mod spring_slider;
 mod tangent;
+mod thornton_yin;
+pub mod walton;
 
+pub use constant_torque::ConstantTorque;
+pub use elastic_plastic::ElasticPlastic;
+pub use marshall::Marshall;
 pub use mindlin::{Mindlin, Rescale};
 pub use rotation::SpringRotation;
 pub(crate) use rotation::{rescaled, twisted};
 pub use spring_slider::SpringSlider;
 pub use tangent::{Along, Tangent};
+pub use thornton_yin::ThorntonYin;
+pub use walton::Walton;
 
 /// What a friction law answers to a relative motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,6 +58,12 @@ pub struct SpringMotion<T, R: Real> {
     pub friction_reference: R,
     /// Radius of the contact area, zero where the normal law knows none [m].
     pub contact_radius: R,
+    /// Force that pulls the bodies apart, zero where the normal law knows none [N].
+    pub pull_off_force: R,
+    /// Elastic stiffness of the normal force [N/m].
+    pub normal_stiffness: R,
+    /// Length L that turns angular velocities into those of rolling and torsion [m].
+    pub lever: R,
     /// What the dashpot sees in slip.
     pub slip_dashpot: SlipDashpot,
 }
@@ -83,18 +100,34 @@ pub trait FrictionLaw: Copy {
     /// Energy [J] that is gone when the square of the vector's length has fallen from `before` to `after`.
     fn lost_by_shortening<R: Real>(&self, before: R, after: R) -> R;
 
-    /// Dashpot coefficient [kg/s].
+    /// Dashpot coefficient, at the most [kg/s].
     fn dashpot(&self) -> f64;
 
-    /// The greatest stiffness [N/m], where the contact area has at most the radius [m].
-    fn max_stiffness(&self, contact_radius: f64) -> f64;
+    /// The greatest stiffness [N/m] of contacts up to this scale.
+    fn max_stiffness(&self, scale: &ContactScale) -> f64;
 
-    /// Whether the stiffness follows the radius of the contact area.
+    /// Whether the law asks for the radius of the contact area, or for the force that pulls the bodies apart.
     const NEEDS_CONTACT_RADIUS: bool = false;
+
+    /// Whether the law asks for the stiffness of the normal force.
+    fn needs_normal_stiffness(&self) -> bool {
+        false
+    }
+}
+
+/// How large and how stiff contacts become under the loading that is expected.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactScale {
+    /// Radius of the contact area, zero where the normal law knows none [m].
+    pub contact_radius: f64,
+    /// Stiffness of the normal force [N/m].
+    pub normal_stiffness: f64,
+    /// Harmonic mean of the radii [m].
+    pub harmonic_radius: f64,
 }
 
 /// Something to be done with a friction law whose type is only known at run time.
-pub(crate) trait FrictionVisitor {
+pub trait FrictionVisitor {
     /// What comes of it.
     type Output;
     /// Does it.
@@ -124,7 +157,7 @@ macro_rules! friction_laws {
         impl Friction {
             /// Hands the law, with its own type, to the visitor.
             #[inline(always)]
-            pub(crate) fn accept<V: FrictionVisitor>(&self, visitor: V) -> V::Output {
+            pub fn accept<V: FrictionVisitor>(&self, visitor: V) -> V::Output {
                 match self {
                     Self::$common(law) => visitor.visit(law),
                     $(Self::$law(law) => visitor.visit(law),)*
@@ -184,7 +217,16 @@ macro_rules! friction_laws {
 
 // The list of friction laws: a new one is its file and its name here, among the others. The loops for common contacts
 // hold the code of the common one only.
-friction_laws![none: none; common: spring_slider::SpringSlider; others: mindlin::Mindlin];
+friction_laws![
+    none: none;
+    common: spring_slider::SpringSlider;
+    others: constant_torque::ConstantTorque,
+    elastic_plastic::ElasticPlastic,
+    marshall::Marshall,
+    mindlin::Mindlin,
+    thornton_yin::ThorntonYin,
+    walton::Walton,
+];
 
 struct Dashpot;
 impl FrictionVisitor for Dashpot {
@@ -194,8 +236,8 @@ impl FrictionVisitor for Dashpot {
     }
 }
 
-struct MaxStiffness(f64);
-impl FrictionVisitor for MaxStiffness {
+struct MaxStiffness<'a>(&'a ContactScale);
+impl FrictionVisitor for MaxStiffness<'_> {
     type Output = f64;
     fn visit<F: FrictionLaw>(self, law: &F) -> f64 {
         law.max_stiffness(self.0)
@@ -210,19 +252,32 @@ impl FrictionVisitor for NeedsContactRadius {
     }
 }
 
+struct NeedsNormalStiffness;
+impl FrictionVisitor for NeedsNormalStiffness {
+    type Output = bool;
+    fn visit<F: FrictionLaw>(self, law: &F) -> bool {
+        law.needs_normal_stiffness()
+    }
+}
+
 impl Friction {
     /// Dashpot coefficient [kg/s].
     pub fn dashpot(&self) -> f64 {
         self.accept(Dashpot)
     }
 
-    /// The greatest stiffness [N/m], where the contact area has at most the radius [m].
-    pub fn max_stiffness(&self, contact_radius: f64) -> f64 {
-        self.accept(MaxStiffness(contact_radius))
+    /// The greatest stiffness [N/m] of contacts up to this scale.
+    pub fn max_stiffness(&self, scale: &ContactScale) -> f64 {
+        self.accept(MaxStiffness(scale))
     }
 
-    /// Whether the stiffness follows the radius of the contact area.
+    /// Whether the law asks for the radius of the contact area, or for the force that pulls the bodies apart.
     pub fn needs_contact_radius(&self) -> bool {
         self.accept(NeedsContactRadius)
+    }
+
+    /// Whether the law asks for the stiffness of the normal force.
+    pub fn needs_normal_stiffness(&self) -> bool {
+        self.accept(NeedsNormalStiffness)
     }
 }

@@ -2,7 +2,7 @@
 
 use pulvis_math::{Dimension, Mask, Real};
 
-use super::{FrictionLaw, FrictionResponse, SpringMotion, Tangent};
+use super::{ContactScale, FrictionLaw, FrictionResponse, SpringMotion, Tangent};
 use crate::catalogue::{InvalidParameter, LawEntry, Parameter, Range, Role, Values};
 use crate::conventions::SlipDashpot;
 
@@ -229,7 +229,7 @@ impl FrictionLaw for SpringSlider {
         self.dashpot
     }
 
-    fn max_stiffness(&self, _contact_radius: f64) -> f64 {
+    fn max_stiffness(&self, _scale: &ContactScale) -> f64 {
         self.stiffness
     }
 }
@@ -296,6 +296,9 @@ mod tests {
             in_contact: reference > 0.0,
             friction_reference: reference,
             contact_radius: 0.0,
+            pull_off_force: 0.0,
+            normal_stiffness: 0.0,
+            lever: 0.0,
             slip_dashpot: SlipDashpot::Series,
         }
     }

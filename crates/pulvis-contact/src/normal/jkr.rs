@@ -148,6 +148,7 @@ impl NormalLaw for Jkr {
             was_in_contact: before | motion.touched_before(),
             friction_reference: limit,
             contact_radius,
+            pull_off_force: (number(9.0) * ninth).keep_where(attached),
             adhesive_potential: surface,
             dissipated_adhesive: lost,
             ..NormalResponse::elastic(

@@ -22,6 +22,8 @@ pub struct NormalResponse<R: Real = f64> {
     pub friction_reference: R,
     /// Radius of the contact area; zero for laws that know none [m].
     pub contact_radius: R,
+    /// Force that pulls the bodies apart, of a neck that friction can peel; zero for laws that know none [N].
+    pub pull_off_force: R,
     /// Elastic stiffness of the normal force here, never negative [N/m].
     pub stiffness: R,
     /// Coefficient of the law's own dashpot [kg/s].
@@ -53,6 +55,7 @@ impl<R: Real> NormalResponse<R> {
             was_in_contact: motion.touched_before(),
             friction_reference: force,
             contact_radius: R::zero(),
+            pull_off_force: R::zero(),
             stiffness,
             dashpot: R::zero(),
             hardening: R::one(),

@@ -97,6 +97,26 @@ impl JkrPair {
         coefficient * elementary::cbrt(adhesion / (self.modulus * self.modulus))
     }
 
+    /// Tangential force at which a contact under the normal force `P` \[N\] has peeled completely, `T_c = 4 sqrt((P F_c +
+    /// F_c^2) G*/E*)`, for the effective shear modulus `G*` \[Pa\] \[N\]. C. Thornton, K. K. Yin, Powder Technol. 65, 153
+    /// (1991).
+    #[must_use]
+    pub fn peeling_force(&self, load: f64, effective_shear_modulus: f64) -> f64 {
+        let pull_off = self.pull_off_force();
+        4.0 * ((load + pull_off) * pull_off * effective_shear_modulus / self.modulus).sqrt()
+    }
+
+    /// Radius of the contact area under the normal force `P` \[N\] and the tangential force `T` \[N\], at most that of
+    /// complete peeling, `a^3 = 3 R/(4 E*) (P + 2 F_c + sqrt(4 P F_c + 4 F_c^2 - T^2 E*/(4 G*)))` \[m\]. Source as of
+    /// [`peeling_force`](Self::peeling_force).
+    #[must_use]
+    pub fn sheared_radius(&self, load: f64, tangential_force: f64, effective_shear_modulus: f64) -> f64 {
+        let pull_off = self.pull_off_force();
+        let sheared = tangential_force * tangential_force * self.modulus / (4.0 * effective_shear_modulus);
+        let root = (4.0 * pull_off * (load + pull_off) - sheared).max(0.0).sqrt();
+        elementary::cbrt(0.75 * self.radius / self.modulus * (load + 2.0 * pull_off + root))
+    }
+
     /// Velocity `v_s = sqrt(2 W/m_r)` below which bodies of the reduced mass `m_r` \[kg\] stick [m/s].
     #[must_use]
     pub fn sticking_velocity(&self, reduced_mass: f64) -> f64 {

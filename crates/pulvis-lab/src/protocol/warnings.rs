@@ -176,7 +176,7 @@ pub(super) fn damping_ratios(
     let laws = &model.laws;
     let stiffness = model.normal.max_stiffness(&pair, &laws.expected);
     let dashpot = model.normal.dashpot(&pair) + laws.viscosity.largest_coefficient(&pair, stiffness);
-    let contact_radius = model.normal.expected_contact_radius(&pair, &laws.expected);
+    let scale = model.scale(&pair);
     let ratio = |dashpot: f64, stiffness: f64, inverse_mass: f64| {
         if dashpot > 0.0 && stiffness > 0.0 { dashpot * (inverse_mass / stiffness).sqrt() / 2.0 } else { 0.0 }
     };
@@ -194,7 +194,7 @@ pub(super) fn damping_ratios(
         ("of torsion", &laws.torsion, turning),
     ] {
         if let Some(law) = law {
-            ratios.push((what, ratio(law.dashpot(), law.max_stiffness(contact_radius), inverse_mass)));
+            ratios.push((what, ratio(law.dashpot(), law.max_stiffness(&scale), inverse_mass)));
         }
     }
     ratios

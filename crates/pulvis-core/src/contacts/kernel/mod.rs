@@ -108,7 +108,7 @@ fn wants(group: &ContactGroup, advance: &Advance) -> Wants {
         energy: advance.ledger && advance.stored,
         losses: advance.ledger && laws.remembers_normal_motion(group.layout.slots()),
         hardening: !matches!(laws.viscosity, Viscosity::None(_)),
-        stiffness: rate || laws.viscosity.needs_stiffness(),
+        stiffness: rate || laws.viscosity.needs_stiffness() || laws.needs_normal_stiffness(),
         radius: laws.needs_contact_radius(),
         rate,
     }

@@ -57,7 +57,7 @@ pub(super) struct Wants {
     pub(super) hardening: bool,
     /// Elastic stiffness.
     pub(super) stiffness: bool,
-    /// Radius of the contact area.
+    /// Radius of the contact area, and the force that pulls the bodies apart.
     pub(super) radius: bool,
     /// Whether the largest k/m_r is monitored.
     pub(super) rate: bool,
@@ -161,6 +161,7 @@ impl<N: NormalLaw> Routine<NormalTask> for RoutineOf<N> {
             }
             if wants.radius {
                 slot.contact_radius = answer.contact_radius;
+                slot.pull_off_force = answer.pull_off_force;
             }
         }
     }
