@@ -107,11 +107,11 @@ impl<'a, R: Real> Resistance<'a, R> {
         let (arm_i, arm_j) = self.arms(self.overlap);
         let (mid_i, mid_j) = self.arms(self.overlap_mid);
         // The velocity at the time of the positions is for the dashpot alone.
-        let velocity = || {
+        let mut velocity = Vector3::zero();
+        if law.dashpot() != 0.0 {
             let surface = motion.angular_velocity_i * arm_i + motion.angular_velocity_j * arm_j;
-            motion.velocity.tangential_to(normal) + normal.cross(surface)
-        };
-        let velocity = self.where_damped(law, velocity);
+            velocity = motion.velocity.tangential_to(normal) + normal.cross(surface);
+        }
         let surface_mid = motion.angular_velocity_i_mid * mid_i + motion.angular_velocity_j_mid * mid_j;
         let velocity_mid = self.sideways_mid + self.normal_mid.cross(surface_mid);
         let stretch = Stretch { step: self, velocity, velocity_mid, lever: R::one(), start, columns };
@@ -138,9 +138,10 @@ impl<'a, R: Real> Resistance<'a, R> {
         response: &mut ContactResponse<R>,
     ) {
         let (motion, normal) = (self.motion, self.motion.normal);
-        let velocity = self.where_damped(law, || {
-            normal.cross(motion.angular_velocity_i - motion.angular_velocity_j) * -lever
-        });
+        let mut velocity = Vector3::zero();
+        if law.dashpot() != 0.0 {
+            velocity = normal.cross(motion.angular_velocity_i - motion.angular_velocity_j) * -lever;
+        }
         let rolling_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
         let velocity_mid = self.normal_mid.cross(rolling_mid) * -lever_mid;
         let stretch = Stretch { step: self, velocity, velocity_mid, lever, start, columns };
@@ -174,12 +175,6 @@ impl<'a, R: Real> Resistance<'a, R> {
         energies.elastic_torsion = answer.stored_energy;
         energies.dissipated_torsion = answer.dissipated_slip;
         turn(normal * (lever * answer.force.0), answer.viscous_power, response);
-    }
-
-    /// A velocity that only dashpots look at.
-    #[inline(always)]
-    fn where_damped(&self, law: &Friction, velocity: impl FnOnce() -> Vector3<R>) -> Vector3<R> {
-        if law.dashpot() != 0.0 { velocity() } else { Vector3::zero() }
     }
 
     /// A vector of the tangent plane turned with the contact, and a displacement [m] as seen from there.

@@ -372,6 +372,7 @@ impl NormalLaw for Luding {
 ///
 /// The upper bound √y + ∛(y c) makes Newton's method fall monotonically; lanes that have arrived
 /// are frozen, so a lane gives the bits of the plain number whatever its neighbours do.
+#[inline(always)]
 fn largest_cubic_root<R: Real>(y: R, c: f64) -> R {
     let mut root = y.sqrt() + (y * R::splat(c)).cbrt();
     for _ in 0..60 {

@@ -113,9 +113,11 @@ macro_rules! lane_by_lane {
         fn lane(self, lane: usize) -> f64 {
             self.to_array()[lane]
         }
+        #[inline(always)]
         fn powf(self, exponent: f64) -> Self {
             Self::load(&F64Array(self.to_array().map(|number| $crate::elementary::powf(number, exponent))))
         }
+        #[inline(always)]
         fn cbrt(self) -> Self {
             Self::load(&F64Array(self.to_array().map($crate::elementary::cbrt)))
         }
