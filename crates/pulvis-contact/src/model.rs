@@ -1,16 +1,18 @@
 //! One contact, composed of its laws.
 
+use std::borrow::Borrow;
+
 use pulvis_math::Real;
 
 use crate::conventions::Conventions;
 use crate::energy::ContactEnergies;
 use crate::expected::ExpectedLoading;
-use crate::friction::{ContactScale, Friction};
+use crate::friction::{CommonFriction, ContactScale, Friction};
 use crate::kinematics::{ContactInputs, ContactKinematics, NormalMotion};
 use crate::levels;
 use crate::memory::{Columns, MemoryLayout, MemorySlots};
 use crate::noncontact::{self, NonContact};
-use crate::normal::{Normal, NormalSource};
+use crate::normal::{Normal, NormalResponse, NormalSource};
 use crate::pair::Pair;
 use crate::resistance::Resistance;
 use crate::response::ContactResponse;
@@ -121,13 +123,16 @@ impl ContactModel {
     }
 
     /// Whether the engine's loops for common contacts can compute this one: they are compiled for the normal law
-    /// itself, and hold nothing but dashpots and spring-sliders beside it.
+    /// itself, and hold nothing beside it but dashpots, its [common](crate::NormalLaw::COMMON_SLIDING) law against
+    /// sliding, and spring-sliders against rolling and torsion.
     pub fn is_common(&self) -> bool {
-        let common = |friction: &Option<Friction>| friction.as_ref().is_none_or(Friction::is_common);
         let laws = &self.laws;
+        let is = |friction: &Option<Friction>, common| friction.as_ref().is_none_or(|law| law.is(common));
         self.normal.is_common()
             && matches!(laws.noncontact, NonContact::None(_))
-            && [laws.sliding, laws.rolling, laws.torsion].iter().all(common)
+            && is(&laws.sliding, self.normal.common_sliding())
+            && is(&laws.rolling, CommonFriction::SpringSlider)
+            && is(&laws.torsion, CommonFriction::SpringSlider)
     }
 }
 
@@ -193,10 +198,11 @@ impl ContactLaws {
     {
         let ContactInputs { pair, motion, time_step } = inputs;
         let along = NormalMotion::new(pair, motion, time_step);
-        let elastic = normal.respond(&along, columns);
+        let answer = normal.respond(&along, columns);
+        let elastic: &NormalResponse<R> = answer.borrow();
         let mut coefficient = elastic.dashpot;
         if !matches!(self.viscosity, Viscosity::None(_)) {
-            coefficient += self.viscosity.coefficient(pair, along.depth, &elastic);
+            coefficient += self.viscosity.coefficient(pair, along.depth, elastic);
         }
         let viscous = (coefficient * along.closing_rate).keep_where(elastic.in_contact);
         let mut normal_force = elastic.applied_force + viscous;
@@ -209,7 +215,7 @@ impl ContactLaws {
             ..ContactEnergies::default()
         };
         let mut attraction_force = R::zero();
-        if !N::COMMON && !matches!(self.noncontact, NonContact::None(_)) {
+        if N::COMMON.is_none() && !matches!(self.noncontact, NonContact::None(_)) {
             let attraction = self.noncontact.respond(&along, columns, slots.attraction);
             normal_force += attraction.applied_force;
             attraction_force = attraction.force;
@@ -217,7 +223,9 @@ impl ContactLaws {
             energies.dissipated_adhesive += attraction.dissipated;
         }
         let force = motion.normal * normal_force;
-        let mut response = ContactResponse { normal_force, force, energies, ..ContactResponse::default() };
+        let stiffness = elastic.stiffness;
+        let mut response =
+            ContactResponse { normal_force, force, stiffness, energies, ..ContactResponse::default() };
         if RESISTANCE >= levels::SLIDING {
             let reference = self.conventions.friction_reference(
                 elastic.friction_reference,
@@ -225,7 +233,7 @@ impl ContactLaws {
                 viscous,
                 attraction_force,
             );
-            let step = Resistance::new::<N>(&self.conventions, inputs, &elastic, reference);
+            let step = Resistance::new::<N>(&self.conventions, inputs, elastic, reference);
             if let Some(friction) = &self.sliding {
                 let start = slots.sliding::<RESISTANCE>(N::COLUMNS);
                 step.slide::<N, C>(friction, start, columns, &mut response);

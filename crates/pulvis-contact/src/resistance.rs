@@ -5,8 +5,8 @@ use pulvis_math::{Mask, Real, Vector3};
 use crate::conventions::{Conventions, LeverArm, RollingLever};
 use crate::energy::ContactEnergies;
 use crate::friction::{
-    Along, Friction, FrictionLaw, FrictionResponse, FrictionVisitor, SpringMotion, SpringRotation, Tangent,
-    rescaled, twisted,
+    Along, CommonFriction, Friction, FrictionLaw, FrictionResponse, FrictionVisitor, SpringMotion,
+    SpringRotation, Tangent, rescaled, twisted,
 };
 use crate::kinematics::{ContactInputs, ContactKinematics};
 use crate::memory::{self, Columns};
@@ -68,8 +68,8 @@ impl<'a, R: Real> Resistance<'a, R> {
         let half_turn = half * motion.inverse_distance;
         let mut normal_mid = motion.normal - sideways * half_turn;
         let mut sideways_mid = sideways * (R::one() + half_turn * opening);
-        // Loops for common contacts have no walls, curved ones least of all.
-        let normal_rate = if N::COMMON { None } else { motion.normal_rate };
+        // Only walls are curved.
+        let normal_rate = if N::CURVED { motion.normal_rate } else { None };
         if let Some(rate) = normal_rate {
             normal_mid = motion.normal - rate * half;
             sideways_mid = sideways + rate * (half * opening);
@@ -115,7 +115,7 @@ impl<'a, R: Real> Resistance<'a, R> {
         let surface_mid = motion.angular_velocity_i_mid * mid_i + motion.angular_velocity_j_mid * mid_j;
         let velocity_mid = self.sideways_mid + self.normal_mid.cross(surface_mid);
         let stretch = Stretch { step: self, velocity, velocity_mid, lever: R::one(), start, columns };
-        let Some(answer) = ask::<R, N, _>(law, stretch) else { return };
+        let Some(answer) = ask(law, N::COMMON, stretch) else { return };
         let moment = answer.force.cross(normal);
         response.force += answer.force;
         // Sliding comes first: there are no other torques yet.
@@ -145,7 +145,7 @@ impl<'a, R: Real> Resistance<'a, R> {
         let rolling_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
         let velocity_mid = self.normal_mid.cross(rolling_mid) * -lever_mid;
         let stretch = Stretch { step: self, velocity, velocity_mid, lever, start, columns };
-        let Some(answer) = ask::<R, N, _>(law, stretch) else { return };
+        let Some(answer) = ask(law, N::COMMON.and(Some(ROTATION)), stretch) else { return };
         let energies = &mut response.energies;
         energies.elastic_rolling = answer.stored_energy;
         energies.dissipated_rolling = answer.dissipated_slip;
@@ -170,7 +170,7 @@ impl<'a, R: Real> Resistance<'a, R> {
         let twisting_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
         let velocity_mid = self.normal_mid.dot(twisting_mid) * lever_mid;
         let twist = Twist { step: self, velocity, velocity_mid, lever, start, columns };
-        let Some(answer) = ask::<R, N, _>(law, twist) else { return };
+        let Some(answer) = ask(law, N::COMMON.and(Some(ROTATION)), twist) else { return };
         let energies: &mut ContactEnergies<R> = &mut response.energies;
         energies.elastic_torsion = answer.stored_energy;
         energies.dissipated_torsion = answer.dissipated_slip;
@@ -267,10 +267,16 @@ impl<'a, R: Real> Resistance<'a, R> {
     }
 }
 
+/// The law against rolling and torsion that common contacts have.
+const ROTATION: CommonFriction = CommonFriction::SpringSlider;
+
 /// Hands a law to the visitor; in loops for common contacts only the common one.
 #[inline(always)]
-fn ask<R: Real, N: NormalSource<R>, V: FrictionVisitor>(law: &Friction, visitor: V) -> Option<V::Output> {
-    if N::COMMON { law.accept_common(visitor) } else { Some(law.accept(visitor)) }
+fn ask<V: FrictionVisitor>(law: &Friction, common: Option<CommonFriction>, visitor: V) -> Option<V::Output> {
+    match common {
+        Some(common) => law.accept_common(common, visitor),
+        None => Some(law.accept(visitor)),
+    }
 }
 
 /// Adds a torque on i, its opposite on j, and the power of the dashpot.

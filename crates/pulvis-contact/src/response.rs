@@ -9,6 +9,8 @@ use crate::energy::ContactEnergies;
 pub struct ContactResponse<R> {
     /// Total force along the normal, repulsion positive [N].
     pub normal_force: R,
+    /// Elastic stiffness of the normal force [N/m].
+    pub stiffness: R,
     /// Force on i; the force on j is its opposite [N].
     pub force: Vector3<R>,
     /// Torque on i [N m].
@@ -25,6 +27,7 @@ impl<R: Real> Default for ContactResponse<R> {
     fn default() -> Self {
         Self {
             normal_force: R::zero(),
+            stiffness: R::zero(),
             force: Vector3::zero(),
             torque_i: Vector3::zero(),
             torque_j: Vector3::zero(),

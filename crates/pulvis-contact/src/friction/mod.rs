@@ -126,6 +126,15 @@ pub struct ContactScale {
     pub harmonic_radius: f64,
 }
 
+/// The friction law whose code loops for common contacts hold, and no other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CommonFriction {
+    /// [`SpringSlider`].
+    SpringSlider,
+    /// [`Mindlin`].
+    Mindlin,
+}
+
 /// Something to be done with a friction law whose type is only known at run time.
 pub trait FrictionVisitor {
     /// What comes of it.
@@ -164,18 +173,26 @@ macro_rules! friction_laws {
                 }
             }
 
-            /// Hands the law to the visitor if it is the common one.
+            /// Hands the law to the visitor if it is the one that common contacts have.
             #[inline(always)]
-            pub(crate) fn accept_common<V: FrictionVisitor>(&self, visitor: V) -> Option<V::Output> {
-                match self {
-                    Self::$common(law) => Some(visitor.visit(law)),
+            pub(crate) fn accept_common<V: FrictionVisitor>(
+                &self,
+                common: CommonFriction,
+                visitor: V,
+            ) -> Option<V::Output> {
+                match (common, self) {
+                    (CommonFriction::SpringSlider, Self::SpringSlider(law)) => Some(visitor.visit(law)),
+                    (CommonFriction::Mindlin, Self::Mindlin(law)) => Some(visitor.visit(law)),
                     _ => None,
                 }
             }
 
-            /// Whether loops for common contacts are compiled for the law.
-            pub const fn is_common(&self) -> bool {
-                matches!(self, Self::$common(_))
+            /// Whether the law is the one that common contacts have.
+            pub const fn is(&self, common: CommonFriction) -> bool {
+                matches!(
+                    (common, self),
+                    (CommonFriction::SpringSlider, Self::SpringSlider(_)) | (CommonFriction::Mindlin, Self::Mindlin(_))
+                )
             }
 
             /// The law's description in a role that it can play.
@@ -216,7 +233,7 @@ macro_rules! friction_laws {
 }
 
 // The list of friction laws: a new one is its file and its name here, among the others. The loops for common contacts
-// hold the code of the common one only.
+// hold the code of one `CommonFriction` only.
 friction_laws![
     none: none;
     common: spring_slider::SpringSlider;

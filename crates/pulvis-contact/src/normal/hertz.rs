@@ -5,6 +5,7 @@ use pulvis_math::{Dimension, Real, elementary};
 use super::{NormalLaw, NormalResponse};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values, mixing};
 use crate::expected::ExpectedLoading;
+use crate::friction::CommonFriction;
 use crate::kinematics::NormalMotion;
 use crate::pair::Pair;
 
@@ -90,6 +91,8 @@ impl NormalLaw for Hertz {
     }
 
     const STIFFNESS_IS_BOUNDED: bool = false;
+
+    const COMMON_SLIDING: CommonFriction = CommonFriction::Mindlin;
 
     fn expected_contact_radius(&self, pair: &Pair<f64>, expected: &ExpectedLoading) -> f64 {
         (effective_radius(pair) * expected_overlap(self.effective_modulus, pair, expected)).sqrt()

@@ -1,9 +1,12 @@
 //! Forces along the line of centres. One file a law; the list is at the end of this file.
 
+use std::borrow::Borrow;
+
 use pulvis_math::Real;
 
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Values, law_list};
 use crate::expected::ExpectedLoading;
+use crate::friction::CommonFriction;
 use crate::kinematics::NormalMotion;
 use crate::memory::{self, Columns, Memory};
 use crate::pair::Pair;
@@ -86,6 +89,9 @@ pub trait NormalLaw: Law + Listed {
     /// times says too little.
     const DEPENDS_ON_TIME: bool = false;
 
+    /// The law against sliding that common contacts of this law have.
+    const COMMON_SLIDING: CommonFriction = CommonFriction::SpringSlider;
+
     /// Radius of the contact area under the `expected` loading [m]; zero for laws that know none.
     fn expected_contact_radius(&self, _pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
         0.0
@@ -118,11 +124,17 @@ pub trait Listed: Sized {
 pub trait NormalSource<R: Real> {
     /// Number of columns of its memory, where it is known at compile time.
     const COLUMNS: Option<usize>;
-    /// Whether the contact is a [common](crate::ContactModel::is_common) one.
-    const COMMON: bool;
+    /// The law against sliding, if the contact is a [common](crate::ContactModel::is_common) one.
+    const COMMON: Option<CommonFriction>;
+    /// Whether the contact may be one with a curved wall.
+    const CURVED: bool;
+    /// The answer, or where it stands. What stands in memory is better read where it is used than copied into registers
+    /// that a loop does not have.
+    type Answer<'a>: Borrow<NormalResponse<R>>
+    where
+        Self: 'a;
     /// The answer; updates the memory.
-    fn respond<C: Columns<R> + ?Sized>(&self, motion: &NormalMotion<R>, columns: &mut C)
-    -> NormalResponse<R>;
+    fn respond<C: Columns<R> + ?Sized>(&self, motion: &NormalMotion<R>, columns: &mut C) -> Self::Answer<'_>;
 }
 
 /// A law whose type is known at compile time, in a loop for common contacts.
@@ -131,7 +143,12 @@ pub struct Inlined<N>(pub N);
 
 impl<R: Real, N: NormalLaw> NormalSource<R> for Inlined<N> {
     const COLUMNS: Option<usize> = Some(<N::Memory<f64> as Memory<f64>>::COLUMNS);
-    const COMMON: bool = true;
+    const COMMON: Option<CommonFriction> = Some(N::COMMON_SLIDING);
+    const CURVED: bool = false;
+    type Answer<'a>
+        = NormalResponse<R>
+    where
+        Self: 'a;
 
     #[inline(always)]
     fn respond<C: Columns<R> + ?Sized>(
@@ -143,21 +160,26 @@ impl<R: Real, N: NormalLaw> NormalSource<R> for Inlined<N> {
     }
 }
 
-/// An answer that has been computed already, memory included.
+/// An answer that has been computed already, memory included, of a contact that may be `CURVED`.
 #[derive(Clone, Copy, Debug)]
-pub struct Computed<'a, R: Real>(pub &'a NormalResponse<R>);
+pub struct Computed<'a, R: Real, const CURVED: bool>(pub &'a NormalResponse<R>);
 
-impl<R: Real> NormalSource<R> for Computed<'_, R> {
+impl<R: Real, const CURVED: bool> NormalSource<R> for Computed<'_, R, CURVED> {
     const COLUMNS: Option<usize> = None;
-    const COMMON: bool = false;
+    const COMMON: Option<CommonFriction> = None;
+    const CURVED: bool = CURVED;
+    type Answer<'b>
+        = &'b NormalResponse<R>
+    where
+        Self: 'b;
 
     #[inline(always)]
     fn respond<C: Columns<R> + ?Sized>(
         &self,
         _motion: &NormalMotion<R>,
         _columns: &mut C,
-    ) -> NormalResponse<R> {
-        *self.0
+    ) -> &NormalResponse<R> {
+        self.0
     }
 }
 
@@ -251,9 +273,9 @@ macro_rules! normal_laws {
 // each common law, for every level of resistance and instruction set; all others share one loop and are called through
 // pointers (decision 17).
 normal_laws![
-    common: Linear, Luding;
+    common: Hertz, Linear, Luding;
     others:
-        Dahneke, Dmt, Eepa, Hertz, Jkr, Kempton, Molerus, Pasha, WaltonBraun, WaltonBraunVariable, WaltonJohnson
+        Dahneke, Dmt, Eepa, Jkr, Kempton, Molerus, Pasha, WaltonBraun, WaltonBraunVariable, WaltonJohnson
 ];
 
 macro_rules! forwarded {
@@ -317,6 +339,18 @@ impl Normal {
         self.accept(Timed)
     }
 
+    /// See [`NormalLaw::COMMON_SLIDING`].
+    pub fn common_sliding(&self) -> CommonFriction {
+        struct Sliding;
+        impl NormalLawVisitor for Sliding {
+            type Output = CommonFriction;
+            fn visit<N: NormalLaw>(self, _law: &N) -> CommonFriction {
+                N::COMMON_SLIDING
+            }
+        }
+        self.accept(Sliding)
+    }
+
     /// See [`NormalLaw::branch`]; the law's memory stands in the first of the `columns`.
     pub fn branch(&self, pair: &Pair, overlap: f64, columns: &[f64]) -> (u8, &'static str) {
         self.accept(Look { columns, of: (pair, overlap) })
@@ -362,7 +396,9 @@ impl NormalLawVisitor for Look<'_, ()> {
 
 impl<R: Real> NormalSource<R> for Normal {
     const COLUMNS: Option<usize> = None;
-    const COMMON: bool = false;
+    const COMMON: Option<CommonFriction> = None;
+    const CURVED: bool = true;
+    type Answer<'a> = NormalResponse<R>;
 
     fn respond<C: Columns<R> + ?Sized>(
         &self,

@@ -36,6 +36,9 @@ pub trait ViscousLaw: Law {
 
     /// Whether the coefficient follows the elastic stiffness of the normal law.
     const NEEDS_STIFFNESS: bool = false;
+
+    /// Whether the coefficient follows the hardening of the normal law, or its overlap scale.
+    const NEEDS_HARDENING: bool = false;
 }
 
 macro_rules! viscous_laws {
@@ -60,6 +63,11 @@ macro_rules! viscous_laws {
             /// See [`ViscousLaw::NEEDS_STIFFNESS`].
             pub fn needs_stiffness(&self) -> bool {
                 match self { $(Self::$law(_) => $law::NEEDS_STIFFNESS,)* }
+            }
+
+            /// See [`ViscousLaw::NEEDS_HARDENING`].
+            pub fn needs_hardening(&self) -> bool {
+                match self { $(Self::$law(_) => $law::NEEDS_HARDENING,)* }
             }
         }
     };

@@ -74,4 +74,6 @@ impl ViscousLaw for OverlapPower {
     fn largest_coefficient(&self, _pair: &Pair<f64>, _max_stiffness: f64) -> f64 {
         self.gamma_0
     }
+
+    const NEEDS_HARDENING: bool = true;
 }

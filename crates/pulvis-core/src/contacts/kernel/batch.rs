@@ -190,8 +190,8 @@ impl<R: Simd8> Batch<R> {
                 torque_i: answer.torque_i,
                 torque_j: answer.torque_j,
             };
-            if let Some(stiffness) = response.call.stiffness(index) {
-                totals.rate_squared = totals.rate_squared.max(stiffness * pair.inverse_reduced_mass());
+            if response.call.monitors_rate() {
+                totals.rate_squared = totals.rate_squared.max(answer.stiffness * pair.inverse_reduced_mass());
             }
             if response.observed {
                 let length = motion.radius_i + motion.radius_j - motion.overlap;

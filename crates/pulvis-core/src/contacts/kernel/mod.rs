@@ -7,7 +7,6 @@ mod walls;
 
 use std::ops::Range;
 
-use pulvis_contact::Viscosity;
 use pulvis_math::{InstructionSet, Packed4, Simd8};
 
 use self::batch::{BlockSums, Response};
@@ -107,7 +106,7 @@ fn wants(group: &ContactGroup, advance: &Advance) -> Wants {
     Wants {
         energy: advance.ledger && advance.stored,
         losses: advance.ledger && laws.remembers_normal_motion(group.layout.slots()),
-        hardening: !matches!(laws.viscosity, Viscosity::None(_)),
+        hardening: laws.viscosity.needs_hardening(),
         stiffness: rate || laws.viscosity.needs_stiffness() || laws.needs_normal_stiffness(),
         radius: laws.needs_contact_radius(),
         rate,

@@ -24,8 +24,8 @@ pub(super) trait NormalCall<R: Simd8> {
     /// The response for block `index` of the batch.
     fn source(&self, index: usize) -> Self::Source<'_>;
 
-    /// The stiffness [N/m] of block `index`, where it is monitored.
-    fn stiffness(&self, index: usize) -> Option<R>;
+    /// Whether the largest k/m_r is monitored.
+    fn monitors_rate(&self) -> bool;
 }
 
 impl<R: Simd8, N: NormalLaw> NormalCall<R> for Inlined<N> {
@@ -40,8 +40,8 @@ impl<R: Simd8, N: NormalLaw> NormalCall<R> for Inlined<N> {
     }
 
     #[inline(always)]
-    fn stiffness(&self, _index: usize) -> Option<R> {
-        None
+    fn monitors_rate(&self) -> bool {
+        !N::STIFFNESS_IS_BOUNDED
     }
 }
 
@@ -63,8 +63,8 @@ pub(super) struct Wants {
     pub(super) rate: bool,
 }
 
-/// A normal law that is called through a pointer once per batch.
-pub(super) struct Pointed<'a, R: Simd8> {
+/// A normal law that is called through a pointer once per batch, for contacts that may be `CURVED`.
+pub(super) struct Pointed<'a, R: Simd8, const CURVED: bool> {
     law: &'a Normal,
     pointer: Pointer<NormalTask, R>,
     answers: [NormalResponse<R>; BATCH],
@@ -73,7 +73,7 @@ pub(super) struct Pointed<'a, R: Simd8> {
     wants: Wants,
 }
 
-impl<'a, R: Simd8> Pointed<'a, R> {
+impl<'a, R: Simd8, const CURVED: bool> Pointed<'a, R, CURVED> {
     /// Calls of a law whose contacts have so many columns of memory, over steps of `time_step` [s].
     #[inline(always)]
     pub(super) fn new(law: &'a Normal, columns: usize, time_step: f64, wants: Wants) -> Self {
@@ -82,9 +82,9 @@ impl<'a, R: Simd8> Pointed<'a, R> {
     }
 }
 
-impl<R: Simd8> NormalCall<R> for Pointed<'_, R> {
+impl<R: Simd8, const CURVED: bool> NormalCall<R> for Pointed<'_, R, CURVED> {
     type Source<'a>
-        = Computed<'a, R>
+        = Computed<'a, R, CURVED>
     where
         Self: 'a;
 
@@ -96,13 +96,13 @@ impl<R: Simd8> NormalCall<R> for Pointed<'_, R> {
     }
 
     #[inline(always)]
-    fn source(&self, index: usize) -> Computed<'_, R> {
+    fn source(&self, index: usize) -> Computed<'_, R, CURVED> {
         Computed(&self.answers[index])
     }
 
     #[inline(always)]
-    fn stiffness(&self, index: usize) -> Option<R> {
-        self.wants.rate.then(|| self.answers[index].stiffness)
+    fn monitors_rate(&self) -> bool {
+        self.wants.rate
     }
 }
 

@@ -37,7 +37,7 @@ impl Kernel for WallLoop<'_> {
         let (turns, turning_dashpots) = (laws.has_friction(), laws.has_resistance_dashpot());
         let interaction_range = R::splat(-group.interaction_range);
         let columns = group.layout.columns();
-        let call = Pointed::<R>::new(&normal, columns, advance.time_step, wants(group, advance));
+        let call = Pointed::<R, true>::new(&normal, columns, advance.time_step, wants(group, advance));
         let mut response = response(call, group, advance, advance.ledger);
         let mut totals = BlockSums::<R>::new();
         let any_turns = walls.iter().any(|wall| wall.angular_velocity().is_some());
