@@ -72,6 +72,38 @@ fn trajectories_and_pictures_are_written_and_never_written_over_without_force() 
 }
 
 #[test]
+fn laws_are_compared_in_one_table_and_one_picture() {
+    let folder = folder("compared");
+    let (file, picture) = (folder.join("compared.toml"), folder.join("compared.svg"));
+    let scenario = "[collision]\nbodies = \"wall\"\nradius = \"1 mm\"\ndensity = \"2000 kg/m^3\"\nangle = \"30 deg\"\n\
+        [collision.sweep]\nvariable = \"normal_velocity\"\nvalues = [0.1, 0.2, 0.4]\n\
+        [contact.normal]\nlaw = \"linear\"\nk = \"1e4 N/m\"\n\
+        [contact.sliding]\nlaw = \"spring-slider\"\nkt = \"2e3 N/m\"\nmu = 0.3\n\
+        [[compare]]\nlabel = \"smooth\"\nsliding = { law = \"none\" }\n";
+    fs::write(&file, scenario).unwrap();
+    let arguments =
+        ["collide", file.to_str().unwrap(), "--format", "csv", "--plot", picture.to_str().unwrap()];
+    let output = pulvis(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", error(&output));
+    let text = out(&output);
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
+    assert_eq!(column("contact"), rows[0].len() - 1);
+    let labels: Vec<&str> = rows[1..].iter().map(|row| *row.last().unwrap()).collect();
+    assert_eq!(labels[..3], ["linear + spring-slider"; 3]);
+    assert_eq!(labels[3..], ["smooth"; 3]);
+    let ratio = |row: &Vec<&str>| row[column("impulse_ratio")].parse::<f64>().unwrap();
+    assert!(
+        rows[1..4].iter().all(|row| ratio(row) > 0.05) && rows[4..].iter().all(|row| ratio(row).abs() < 1e-12)
+    );
+    let drawn = fs::read_to_string(&picture).unwrap();
+    for words in ["smooth", "linear + spring-slider", "Tangential over normal impulse", "Force over overlap"]
+    {
+        assert!(drawn.contains(words), "{words}");
+    }
+}
+
+#[test]
 fn values_are_replaced_from_the_command_line() {
     let column = |arguments: &[&str]| -> Vec<String> {
         let text = out(&pulvis(&[&["collide", EXPERIMENT, "--format", "csv"], arguments].concat()));

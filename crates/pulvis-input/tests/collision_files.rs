@@ -80,3 +80,23 @@ fn values_can_be_replaced_from_outside() {
     let before = CollisionScenario::from_document(&document).unwrap();
     assert_ne!(scenario.cases[0].contact, before.cases[0].contact);
 }
+
+/// Both examples of the book: the first is head on, the second under an angle.
+#[test]
+fn the_examples_of_the_book_are_collisions() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/book/src/collisions.md");
+    let book = fs::read_to_string(path).unwrap();
+    let examples: Vec<&str> =
+        book.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+    let read = |text: &str| CollisionScenario::from_document(&Document::from_str("book", text).unwrap());
+    let scenarios: Vec<_> =
+        examples.iter().map(|text| read(text).unwrap_or_else(|errors| panic!("{errors}"))).collect();
+    let [head_on, oblique] = scenarios.as_slice() else { panic!("two examples") };
+    assert!(head_on.cases.iter().all(|case| case.incidence.is_none()));
+    assert_eq!(oblique.labels, ["hertz + mindlin", "rough"]);
+    let [smooth, rough] = oblique.cases.as_slice() else { panic!("one collision of each contact") };
+    assert_eq!(smooth.incidence, rough.incidence);
+    assert_eq!(smooth.incidence.unwrap().spins, [[0.0, 0.0, 100.0], [0.0; 3]]);
+    assert_eq!(smooth.method, Method::Engine { steps_per_contact: 2000.0 });
+    assert!((smooth.normal_velocity() / 3.9 - 0.75_f64.sqrt()).abs() < 1e-15);
+}

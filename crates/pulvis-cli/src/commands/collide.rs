@@ -1,4 +1,4 @@
-//! `pulvis collide`: two bodies head on.
+//! `pulvis collide`: two bodies, head on or under an angle.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -15,7 +15,7 @@ use crate::failure::{Failure, print};
 /// Significant digits of the table on the screen; CSV and JSON hold all.
 const DIGITS: usize = 7;
 
-/// Collides two spheres, or a sphere and a plane, over a sweep of velocities or law parameters.
+/// Collides two spheres, or a sphere and a plane, over a sweep of velocities, angles, spins or law parameters.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Collision scenario (TOML)

@@ -23,7 +23,7 @@ pub enum Command {
     Check(check::Arguments),
     /// Runs the stages of a scenario
     Run(run::Arguments),
-    /// Collides two bodies head on, over a sweep of velocities or law parameters
+    /// Collides two bodies, over a sweep of velocities, angles, spins or law parameters
     Collide(collide::Arguments),
     /// Leads a contact along a prescribed path, as an indenter does
     Probe(probe::Arguments),

@@ -26,15 +26,18 @@
 
 mod bodies;
 mod closed_form;
+mod draft;
+mod incidence;
 mod speed;
 mod sweep;
 
 pub use bodies::{Bodies, Sphere};
 pub(crate) use bodies::{read_bodies, unfit_for_numbers};
 pub use closed_form::luding_pair;
+pub use incidence::Incidence;
 pub use sweep::SweptVariable;
 
-use crate::contact::read_contact;
+use crate::comparison::{LabelledContact, read_compared};
 use crate::context::Reported;
 use crate::document::Document;
 use crate::error::InputErrors;
@@ -43,9 +46,11 @@ use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::{Name, Text};
+use draft::Draft;
+use incidence::read_incidence;
 use pulvis_contact::ContactModel;
-use pulvis_math::Dimension;
-use speed::{Speed, read_speed};
+use pulvis_math::{Dimension, elementary};
+use speed::read_speed;
 use std::path::Path;
 use sweep::{Sweep, read_sweep};
 
@@ -68,12 +73,23 @@ pub struct CollisionCase {
     pub value: f64,
     /// Relative speed outside the range of all forces [m/s].
     pub velocity: f64,
+    /// Angle and spins; `None` where the bodies meet head on without spin.
+    pub incidence: Option<Incidence>,
     /// The bodies.
     pub bodies: Bodies,
     /// All laws of their contact.
     pub contact: ContactModel,
+    /// Number of the contact among those that the scenario compares.
+    pub contact_number: usize,
     /// How it is integrated.
     pub method: Method,
+}
+
+impl CollisionCase {
+    /// The part of the relative velocity along the line of centres [m/s].
+    pub fn normal_velocity(&self) -> f64 {
+        self.velocity * self.incidence.map_or(1.0, |incidence| elementary::cos(incidence.angle))
+    }
 }
 
 /// A collision experiment: one or more collisions that differ in one variable.
@@ -87,8 +103,10 @@ pub struct CollisionScenario {
     pub logarithmic: bool,
     /// How long a pair that stuck is followed [s].
     pub time_after_sticking: f64,
-    /// The collisions, in the order of the sweep.
+    /// The collisions: those of each contact in the order of the sweep, one contact after another.
     pub cases: Vec<CollisionCase>,
+    /// What the contacts are called that are compared.
+    pub labels: Vec<String>,
     /// The file, where a parameter in it is swept.
     document: Option<Document>,
 }
@@ -110,57 +128,73 @@ impl CollisionScenario {
         let mut scenario = document.read(|root| walk(root, true))?;
         if let SweptVariable::Key { path, .. } = &scenario.variable {
             let base = std::mem::take(&mut scenario.cases);
-            for value in base.iter().map(|case| case.value) {
-                scenario.cases.extend(case_at(document, path, value)?);
+            for case in &base {
+                scenario.cases.extend(case_at(document, path, case.value, case.contact_number)?);
             }
             scenario.document = Some(document.clone());
         }
         Ok(scenario)
     }
 
-    /// The collision at any value of a swept parameter, in SI; `None` where no parameter of the file is swept, or where
+    /// The collision of the first contact at any value of a swept parameter, in SI; `None` where no parameter of the file is swept, or where
     /// the file with this value would be refused.
     pub fn case_at(&self, value: f64) -> Option<CollisionCase> {
         match (&self.variable, &self.document) {
             (SweptVariable::Key { path, .. }, Some(document)) => {
-                case_at(document, path, value).ok().flatten()
+                case_at(document, path, value, 0).ok().flatten()
             }
             _ => None,
         }
     }
 }
 
-/// The collision of the file with another value of the parameter at `path`.
-fn case_at(document: &Document, path: &str, value: f64) -> Result<Option<CollisionCase>, InputErrors> {
+/// The collision of the file and one of its contacts with another value of the parameter at `path`.
+fn case_at(
+    document: &Document,
+    path: &str,
+    value: f64,
+    contact_number: usize,
+) -> Result<Option<CollisionCase>, InputErrors> {
     let replaced = document.with_override(path, Replacement::Si(value))?;
-    let case = replaced.read(|root| walk(root, false))?.cases.into_iter().next();
+    let mut cases = replaced.read(|root| walk(root, false))?.cases.into_iter();
+    let case = cases.find(|case| case.contact_number == contact_number);
     Ok(case.map(|case| CollisionCase { value, ..case }))
 }
 
 /// Walks the file. Where a parameter is swept, all cases are those of the file as it stands; each of
-/// them has to be read again with its value in place (`sweeping` is then false, one case is given).
+/// them has to be read again with its value in place (`sweeping` is then false, one case of each contact is given).
 fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, Reported> {
     let title = root.optional("title", Text);
     let collision = root.required_table("collision");
-    let contact = root.required_table("contact").and_then(|table| read_contact(table, None));
+    let contacts = read_compared(&mut root);
     root.finish();
     let mut table = collision?;
     let bodies = read_bodies(&mut table);
-    let method = read_method(&mut table);
+    let at_wall = matches!(bodies, Ok(Bodies::Wall(_)));
+    let incidence = read_incidence(&mut table, at_wall);
+    let method = read_method(&mut table, matches!(incidence, Ok(Some(_))));
     let time = QuantityRule::of(Dimension::TIME).at_least(0.0);
     let time_after_sticking = table.or("time_after_sticking", time, 0.0);
     let speed = read_speed(&mut table);
     let sweep = table.optional_table("sweep");
     // The sweep's own values are judged by the laws, so these have to be right first.
-    let sweep = match (sweep, &contact) {
-        (Ok(Some(sweep)), Ok(contact)) => read_sweep(sweep, contact),
+    let sweep = match (sweep, &contacts) {
+        (Ok(Some(sweep)), Ok(contacts)) => read_sweep(sweep, contacts),
         (Ok(_), _) => Ok(Sweep::single()),
         (Err(reported), _) => Err(reported),
     };
-    let (bodies, method, speed, sweep, contact) = (bodies?, method?, speed?, sweep?, contact?);
-    let draft = Draft { bodies, method, contact: contact.model };
-    let time_after_sticking = time_after_sticking.and_then(|time| draft.can_follow(&table, time));
-    let cases = draft.cases(&table, speed, &sweep, sweeping);
+    let (bodies, incidence, method, speed) = (bodies?, incidence?, method?, speed?);
+    let (sweep, contacts) = (sweep?, contacts?);
+    let mut cases = Ok(Vec::new());
+    let mut time_after_sticking = time_after_sticking;
+    for (contact_number, LabelledContact { contact, .. }) in contacts.iter().enumerate() {
+        let draft = Draft { bodies, incidence, method, contact: contact.model, contact_number };
+        time_after_sticking = time_after_sticking.and_then(|time| draft.can_follow(&table, time));
+        cases = cases.and_then(|mut all: Vec<_>| {
+            all.extend(draft.cases(&table, speed.as_ref(), &sweep, sweeping)?);
+            Ok(all)
+        });
+    }
     table.finish();
     Ok(CollisionScenario {
         title: title?,
@@ -168,93 +202,24 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
         logarithmic: sweep.logarithmic,
         time_after_sticking: time_after_sticking?,
         cases: cases?,
+        labels: contacts.into_iter().map(|contact| contact.label).collect(),
         document: None,
     })
 }
 
-fn read_method(table: &mut TableReader<'_>) -> Result<Method, Reported> {
-    let method = table.or("method", Name(&["exact", "engine"]), "exact");
+/// Steps of an oblique collision in the shortest contact time, unless told otherwise: errors of 1e-6.
+const OBLIQUE_STEPS: f64 = 2000.0;
+
+fn read_method(table: &mut TableReader<'_>, oblique: bool) -> Result<Method, Reported> {
+    let method = table.optional("method", Name(&["exact", "engine"]));
     let steps = QuantityRule::of(Dimension::NONE).at_least(1.0);
-    let steps_per_contact = table.or("steps_per_contact", steps, 50.0);
-    let (method, steps_per_contact) = (method?, steps_per_contact?);
-    Ok(if method == "engine" { Method::Engine { steps_per_contact } } else { Method::Exact })
-}
-
-/// A collision whose speed is not yet known.
-struct Draft {
-    bodies: Bodies,
-    method: Method,
-    contact: ContactModel,
-}
-
-/// Contact times for which a pair that stuck is followed at most: its motion has long been told by then.
-const LONGEST_FOLLOWED: f64 = 1000.0;
-
-impl Draft {
-    /// Whether a pair that stuck can be followed for `time` [s].
-    fn can_follow(&self, table: &TableReader<'_>, time: f64) -> Result<f64, Reported> {
-        let (body, partner) = self.bodies.masses_and_radii();
-        let contact_time = self.contact.shortest_contact_time(body, partner);
-        let most = LONGEST_FOLLOWED * contact_time;
-        if time <= most {
-            return Ok(time);
-        }
-        let found = format!(
-            "{time} s is more than {LONGEST_FOLLOWED} times the shortest contact, {contact_time:.4e} s"
-        );
-        Err(table.refuse("time_after_sticking", Problem::rule(found, format!("{most:.4e} s or less"))))
+    let steps = table.or("steps_per_contact", steps, if oblique { OBLIQUE_STEPS } else { 50.0 });
+    let (method, steps_per_contact) = (method?, steps?);
+    if oblique && method == Some("exact") {
+        let problem =
+            Problem::rule("given beside an angle or a spin", "\"engine\", the default of oblique collisions");
+        return Err(table.refuse("method", problem));
     }
-
-    fn cases(
-        &self,
-        table: &TableReader<'_>,
-        speed: Option<Speed>,
-        sweep: &Sweep,
-        sweeping: bool,
-    ) -> Result<Vec<CollisionCase>, Reported> {
-        let swept = sweep.points.first().is_some_and(|point| point.speed.is_some());
-        match (&speed, swept) {
-            (Some(speed), true) => {
-                let problem = Problem::rule("given beside a sweep over the speed", "one of the two");
-                return Err(table.refuse_at(&speed.location, problem));
-            }
-            (None, false) => {
-                let expected = "a velocity [m/s], or `chi`, `zeta`, or a sweep over one of them".to_owned();
-                let problem = Problem::MissingKey { key: "velocity".to_owned(), expected };
-                return Err(table.refuse_with_help(
-                    "velocity",
-                    problem,
-                    "add for example `velocity = \"0.1 m/s\"`",
-                ));
-            }
-            _ => {}
-        }
-        let one = |speed: &Speed, value: Option<f64>| -> Result<CollisionCase, Reported> {
-            let velocity = speed.velocity(&self.contact, &self.bodies);
-            let velocity = velocity.map_err(|problem| table.refuse_at(&speed.location, problem))?;
-            let value = value.unwrap_or(velocity);
-            Ok(CollisionCase {
-                value,
-                velocity,
-                bodies: self.bodies,
-                contact: self.contact,
-                method: self.method,
-            })
-        };
-        match &speed {
-            Some(speed) if sweep.points.is_empty() || !sweeping => Ok(vec![one(speed, None)?]),
-            Some(speed) => {
-                let base = one(speed, None)?;
-                Ok(sweep
-                    .points
-                    .iter()
-                    .map(|point| CollisionCase { value: point.value, ..base.clone() })
-                    .collect())
-            }
-            None => {
-                let points = sweep.points.iter();
-                points.filter_map(|point| Some(one(point.speed.as_ref()?, Some(point.value)))).collect()
-            }
-        }
-    }
+    let engine = oblique || method == Some("engine");
+    Ok(if engine { Method::Engine { steps_per_contact } } else { Method::Exact })
 }

@@ -2,19 +2,22 @@
 
 use super::bodies::Bodies;
 use super::closed_form::luding_pair;
+use super::incidence::Incidence;
 use crate::context::{Location, Reported};
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use pulvis_contact::ContactModel;
 use pulvis_contact::theory::{LudingPair, NonContact};
-use pulvis_math::Dimension;
+use pulvis_math::{Dimension, elementary};
 
 /// The measure of a speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Measure {
     /// Relative speed outside the range of all forces [m/s].
     Velocity,
+    /// Its part along the line of centres [m/s].
+    NormalVelocity,
     /// Touch velocity over v_p0 = √(k1/m_r) δ_p, S1 (13).
     Chi,
     /// Touch velocity over v_p, which knows f_a, S1 (19).
@@ -22,12 +25,19 @@ pub(super) enum Measure {
 }
 
 impl Measure {
-    pub(super) const ALL: [(&'static str, Self); 3] =
-        [("velocity", Self::Velocity), ("chi", Self::Chi), ("zeta", Self::Zeta)];
+    pub(super) const ALL: [(&'static str, Self); 4] = [
+        ("velocity", Self::Velocity),
+        ("normal_velocity", Self::NormalVelocity),
+        ("chi", Self::Chi),
+        ("zeta", Self::Zeta),
+    ];
 
     /// What values must be. A bare velocity is one in m/s: the issue of a sweep is a list of numbers.
     pub(super) fn rule(self) -> QuantityRule {
-        let dimension = if self == Self::Velocity { Dimension::VELOCITY } else { Dimension::NONE };
+        let dimension = match self {
+            Self::Velocity | Self::NormalVelocity => Dimension::VELOCITY,
+            Self::Chi | Self::Zeta => Dimension::NONE,
+        };
         QuantityRule::of(dimension).above(0.0).or_bare()
     }
 }
@@ -40,7 +50,7 @@ pub(super) struct Speed {
     pub(super) location: Location,
 }
 
-/// Reads at most one of `velocity`, `chi` and `zeta`.
+/// Reads at most one of `velocity`, `normal_velocity`, `chi` and `zeta`.
 pub(super) fn read_speed(table: &mut TableReader<'_>) -> Result<Option<Speed>, Reported> {
     let mut speed: Option<Speed> = None;
     for (key, measure) in Measure::ALL {
@@ -48,7 +58,7 @@ pub(super) fn read_speed(table: &mut TableReader<'_>) -> Result<Option<Speed>, R
         if let Some(first) = &speed {
             let problem = Problem::rule(
                 format!("given beside `{}`", first.location.path),
-                "only one of `velocity`, `chi`, `zeta`",
+                "only one of `velocity`, `normal_velocity`, `chi`, `zeta`",
             );
             return Err(table.refuse(key, problem));
         }
@@ -58,9 +68,26 @@ pub(super) fn read_speed(table: &mut TableReader<'_>) -> Result<Option<Speed>, R
 }
 
 impl Speed {
-    /// Relative speed outside the range of all forces [m/s], or why there is none.
-    pub(super) fn velocity(&self, contact: &ContactModel, bodies: &Bodies) -> Result<f64, Problem> {
-        if self.measure == Measure::Velocity {
+    /// Relative speed outside the range of all forces [m/s], or why there is none. All measures but the speed itself are
+    /// about its part along the line of centres.
+    pub(super) fn velocity(
+        &self,
+        contact: &ContactModel,
+        bodies: &Bodies,
+        incidence: Option<Incidence>,
+    ) -> Result<f64, Problem> {
+        match (self.measure, incidence) {
+            (Measure::Velocity, _) => Ok(self.value),
+            (_, None) => self.normal_velocity(contact, bodies),
+            (_, Some(Incidence { angle, .. })) => {
+                Ok(self.normal_velocity(contact, bodies)? / elementary::cos(angle))
+            }
+        }
+    }
+
+    /// The part along the line of centres [m/s].
+    fn normal_velocity(&self, contact: &ContactModel, bodies: &Bodies) -> Result<f64, Problem> {
+        if self.measure == Measure::NormalVelocity {
             return Ok(self.value);
         }
         let pair = luding_pair(contact, &bodies.pair()).filter(|pair| pair.dp().is_finite());

@@ -1,6 +1,8 @@
 //! What differs from collision to collision.
 
+use super::incidence;
 use super::speed::{Measure, Speed};
+use crate::comparison::LabelledContact;
 use crate::contact::{NamedContact, NamedLaw, entries};
 use crate::context::Reported;
 use crate::list::List;
@@ -25,6 +27,8 @@ pub enum SweptVariable {
     Single,
     /// Relative speed outside the range of all forces [m/s].
     Velocity,
+    /// Its part along the line of centres [m/s].
+    NormalVelocity,
     /// χ = v_i/v_p0 with the touch velocity v_i, S1 (28a).
     Chi,
     /// ζ = v_i/v_p with the touch velocity v_i and f_a in v_p, S1 (28b).
@@ -43,6 +47,7 @@ impl SweptVariable {
     pub fn name(&self) -> &str {
         match self {
             Self::Single | Self::Velocity => "velocity",
+            Self::NormalVelocity => "normal_velocity",
             Self::Chi => "chi",
             Self::Zeta => "zeta",
             Self::Key { path, .. } => path,
@@ -52,7 +57,7 @@ impl SweptVariable {
     /// The unit of the values.
     pub fn unit(&self) -> &str {
         match self {
-            Self::Single | Self::Velocity => "m/s",
+            Self::Single | Self::Velocity | Self::NormalVelocity => "m/s",
             Self::Chi | Self::Zeta => "1",
             Self::Key { unit, .. } => unit,
         }
@@ -89,9 +94,17 @@ struct Sweepable {
 }
 
 /// Reads `[collision.sweep]`.
-pub(super) fn read_sweep(mut table: TableReader<'_>, contact: &NamedContact) -> Result<Sweep, Reported> {
+pub(super) fn read_sweep(
+    mut table: TableReader<'_>,
+    contacts: &[LabelledContact],
+) -> Result<Sweep, Reported> {
     let name = table.required("variable", Text)?;
+    let Some(LabelledContact { contact, .. }) = contacts.first() else { return Ok(Sweep::single()) };
     let sweepable = find(&table, &name, contact)?;
+    if sweepable.parameter.is_some() && contacts.len() > 1 {
+        let found = format!("`{name}` belongs to one of the contacts that are compared");
+        return Err(table.refuse("variable", Problem::rule(found, "a speed, or a key of `collision`")));
+    }
     let listed = table.optional("values", List::of(sweepable.rule).at_least(1))?;
     let mut logarithmic = false;
     let values = match listed {
@@ -171,6 +184,7 @@ fn find(table: &TableReader<'_>, name: &str, contact: &NamedContact) -> Result<S
     if let Some((_, measure)) = Measure::ALL.into_iter().find(|(known, _)| *known == name) {
         let variable = match measure {
             Measure::Velocity => SweptVariable::Velocity,
+            Measure::NormalVelocity => SweptVariable::NormalVelocity,
             Measure::Chi => SweptVariable::Chi,
             Measure::Zeta => SweptVariable::Zeta,
         };
@@ -180,6 +194,16 @@ fn find(table: &TableReader<'_>, name: &str, contact: &NamedContact) -> Result<S
     if name == STEPS {
         let rule = QuantityRule::of(Dimension::NONE).at_least(1.0);
         return Ok(Sweepable { variable: key("1".to_owned()), measure: None, rule, parameter: None });
+    }
+    if let Some(motion) = name.strip_prefix("collision.").filter(|motion| incidence::KEYS.contains(motion)) {
+        let unit = if motion == "angle" { "rad" } else { "rad/s" };
+        let variable = key(unit.to_owned());
+        return Ok(Sweepable {
+            variable,
+            measure: None,
+            rule: incidence::rule(motion).or_bare(),
+            parameter: None,
+        });
     }
     let parameter = name.strip_prefix("contact.").and_then(|rest| {
         let (role, parameter) = rest.split_once('.')?;
@@ -214,6 +238,7 @@ fn unknown(table: &TableReader<'_>, name: &str, contact: &NamedContact) -> Repor
         known.extend(numbers.map(|parameter| format!("contact.{}.{}", entry.role.key(), parameter.name)));
     }
     known.push(STEPS.to_owned());
+    known.extend(incidence::KEYS.iter().map(|key| format!("collision.{key}")));
     let suggestion = similar(name, known.iter().map(String::as_str)).map(str::to_owned);
     table.refuse_with_help(
         "variable",
@@ -223,6 +248,7 @@ fn unknown(table: &TableReader<'_>, name: &str, contact: &NamedContact) -> Repor
                 "velocity".to_owned(),
                 "chi".to_owned(),
                 "zeta".to_owned(),
+                "collision.<key>".to_owned(),
                 "contact.<role>.<parameter>".to_owned(),
             ],
             similar: suggestion,

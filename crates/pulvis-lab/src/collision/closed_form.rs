@@ -24,8 +24,11 @@ pub struct ClosedForm {
 }
 
 /// The closed form of a collision: of the Luding and the linear law without dashpot and with any
-/// attraction, of elastic contacts with a constant dashpot and no attraction.
+/// attraction, of elastic contacts with a constant dashpot and no attraction. Head on only.
 pub fn closed_form(case: &CollisionCase) -> Option<ClosedForm> {
+    if case.incidence.is_some() {
+        return None;
+    }
     let problem = Problem::new(case);
     let pair = luding_pair(&case.contact, &problem.pair)?;
     let dashpot = dashpot(&problem)?;

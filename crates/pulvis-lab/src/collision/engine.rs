@@ -1,15 +1,17 @@
 //! The collision as the engine integrates it: two real particles, or one and a wall, in a simulation
 //! with steps of one length.
 
+mod setup;
+
 use super::error::CollisionError;
+use super::oblique::{self, Momenta, RelativeMotion};
 use super::outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
 use super::problem::Problem;
 use crate::branch::ruling_branch;
 use pulvis_contact::NormalMotion;
-use pulvis_core::walls::Wall;
-use pulvis_core::{Background, Domain, Interactions, Particle, Setup, Simulation};
-use pulvis_input::collision::{Bodies, Sphere};
-use pulvis_math::Vector3;
+use pulvis_core::Simulation;
+use pulvis_input::collision::Bodies;
+use setup::setup;
 
 /// Steps after which a collision is given up.
 const MOST_STEPS: u64 = 50_000_000;
@@ -42,6 +44,8 @@ struct Instant {
     overlap: f64,
     velocity: f64,
     force: f64,
+    /// Tangential force on i [N].
+    tangential_force: f64,
 }
 
 /// A collision under way.
@@ -51,6 +55,8 @@ struct Run<'p> {
     problem: &'p Problem<'p>,
     observation: &'p Observation,
     simulation: Simulation,
+    /// Those before.
+    momenta: Momenta,
     now: Instant,
     before: Instant,
     overlap_max: f64,
@@ -69,11 +75,13 @@ impl<'p> Run<'p> {
         time_step: f64,
         observation: &'p Observation,
     ) -> Result<Self, CollisionError> {
+        let simulation = Simulation::new(setup(problem, time_step, observation.phase))?;
         let mut run = Self {
             columns: vec![0.0; problem.contact.memory_layout().columns()],
             problem,
             observation,
-            simulation: Simulation::new(setup(problem, time_step, observation.phase))?,
+            momenta: Momenta::of(simulation.particles()),
+            simulation,
             now: Instant::default(),
             before: Instant::default(),
             overlap_max: 0.0,
@@ -117,17 +125,24 @@ impl<'p> Run<'p> {
     fn look(&self) -> Instant {
         let particles = self.simulation.particles();
         let rows = particles.rows_by_id();
-        let (position, velocity, force) = (particles.positions(), particles.velocities(), particles.forces());
+        let (position, velocity, forces) =
+            (particles.positions(), particles.velocities(), particles.forces());
         let i = rows[0];
-        let (overlap, rate) = match self.problem.bodies {
+        let (overlap, rate, force) = match self.problem.bodies {
             Bodies::Pair([first, second]) => {
                 let j = rows[1];
-                let distance = position[i].x - position[j].x;
-                (first.radius + second.radius - distance, velocity[j].x - velocity[i].x)
+                let (between, against) = (position[i] - position[j], velocity[j] - velocity[i]);
+                let sum = first.radius + second.radius;
+                // The same bits as along the line of centres alone where nothing moves across it.
+                match between.unit().filter(|_| self.problem.incidence.is_some()) {
+                    Some(normal) => (sum - between.norm(), against.dot(normal), forces[i].dot(normal)),
+                    None => (sum - between.x, against.x, forces[i].x),
+                }
             }
-            Bodies::Wall(sphere) => (sphere.radius - position[i].x, -velocity[i].x),
+            Bodies::Wall(sphere) => (sphere.radius - position[i].x, -velocity[i].x, forces[i].x),
         };
-        Instant { time: self.simulation.time(), overlap, velocity: rate, force: force[i].x }
+        let tangential_force = forces[i].y;
+        Instant { time: self.simulation.time(), overlap, velocity: rate, force, tangential_force }
     }
 
     /// Looks for touch, turning points, sticking and the end.
@@ -176,19 +191,36 @@ impl<'p> Run<'p> {
 
     fn outcome(&mut self, regime: Regime) -> Outcome {
         let ledger = self.simulation.ledger();
-        let before = self.problem.kinetic(self.problem.velocity);
+        let oblique = self
+            .problem
+            .incidence
+            .as_ref()
+            .map(|incidence| oblique::outcome(self.problem, incidence, &self.simulation, &self.momenta));
+        let before = match oblique {
+            Some(_) => ledger.initial,
+            None => self.problem.kinetic(self.problem.velocity),
+        };
         let rebound = regime == Regime::Rebound;
         let turned = self.before.velocity < 0.0 && self.now.velocity >= 0.0;
         let stop = if turned { self.turning_overlap() } else { self.now.overlap };
         Outcome {
             regime,
             stop_branch: (!rebound).then(|| self.branch(self.before.overlap)),
-            restitution: if rebound { -self.now.velocity / self.problem.velocity } else { 0.0 },
+            restitution: if rebound { self.rebound_velocity() / self.problem.normal_velocity } else { 0.0 },
             overlap_max: self.overlap_max,
             overlap_end: if rebound { 0.0 - self.problem.interaction_range() } else { stop },
             contact_duration: self.opening_time.zip(self.touch_time).map(|(end, start)| end - start),
             energy_dissipated: ledger.dissipated(),
             energy_error: -ledger.closing_error() / before.max(ledger.scale),
+            oblique,
+        }
+    }
+
+    /// How fast the bodies move apart along the line of centres before [m/s].
+    fn rebound_velocity(&self) -> f64 {
+        match self.problem.incidence {
+            Some(_) => RelativeMotion::now(&self.simulation).velocity.x,
+            None => -self.now.velocity,
         }
     }
 
@@ -221,7 +253,12 @@ impl<'p> Run<'p> {
 
     fn sample(&mut self) -> Sample {
         let ledger = self.simulation.ledger();
-        let Instant { time, overlap, velocity, force } = self.now;
+        let Instant { time, overlap, velocity, force, tangential_force } = self.now;
+        let oblique = self
+            .problem
+            .incidence
+            .map(|_| RelativeMotion::now(&self.simulation).sample(self.problem.bodies, tangential_force));
+        let all = oblique.is_some();
         let (normal, pair) = (&self.problem.contact.normal, &self.problem.pair);
         let branch = normal.branch(pair, overlap, &self.columns).0;
         let potential = normal.branch_potential(branch, &NormalMotion::at_rest(pair, overlap), &self.columns);
@@ -231,48 +268,12 @@ impl<'p> Run<'p> {
             velocity,
             force,
             delta_max: normal.remembered_overlap(&self.columns).unwrap_or(self.overlap_max),
-            kinetic: self.problem.kinetic(velocity),
-            potential_available: ledger.elastic_normal,
+            kinetic: if all { ledger.kinetic() } else { self.problem.kinetic(velocity) },
+            potential_available: if all { ledger.elastic() } else { ledger.elastic_normal },
             potential_plastic: potential.unwrap_or(ledger.elastic_normal),
             potential_attraction: ledger.adhesive,
             dissipated: ledger.dissipated(),
+            oblique,
         }
-    }
-}
-
-/// The bodies on their way, `phase` of a step before they come within reach, their centre of mass at rest.
-fn setup(problem: &Problem<'_>, time_step: f64, phase: f64) -> Setup {
-    let along = |x: f64| Vector3::new(x, 0.0, 0.0);
-    let particle = |sphere: &Sphere, position: f64, velocity: f64| Particle {
-        material: 0,
-        radius: sphere.radius,
-        mass: sphere.mass,
-        position: along(position),
-        velocity: along(velocity),
-        angular_velocity: along(0.0),
-    };
-    let velocity = problem.velocity;
-    let gap = phase * velocity * time_step - problem.start_overlap();
-    let mut interactions = Interactions::new(1);
-    interactions.set(0, 0, *problem.contact);
-    let (particles, walls) = match problem.bodies {
-        Bodies::Pair([i, j]) => {
-            let mass = i.mass + j.mass;
-            let first = particle(i, i.radius + gap, -velocity * j.mass / mass);
-            let second = particle(j, -j.radius, velocity * i.mass / mass);
-            (vec![first, second], vec![])
-        }
-        Bodies::Wall(sphere) => {
-            let wall = Wall::fixed("wall", 0, along(0.0), along(1.0));
-            (vec![particle(sphere, sphere.radius + gap, -velocity)], vec![wall])
-        }
-    };
-    Setup {
-        particles,
-        interactions,
-        walls,
-        domain: Domain::unbounded(),
-        background: Background::default(),
-        time_step,
     }
 }

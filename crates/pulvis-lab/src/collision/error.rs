@@ -32,6 +32,9 @@ pub enum CollisionError {
         /// Time simulated [s].
         time: f64,
     },
+    /// The exact method knows the line of centres only.
+    #[error("oblique collisions, and those with spin, are integrated by the method `engine`")]
+    ObliqueExact,
     /// The engine cannot be set up for this collision.
     #[error(transparent)]
     Setup(#[from] SetupError),

@@ -1,9 +1,9 @@
-//! Head-on collisions of two spheres, or of a sphere and a plane.
+//! Collisions of two spheres, or of a sphere and a plane, head on or oblique.
 //!
 //! The relative motion m_r d²δ/dt² = −f is integrated for any contact model of the catalogue, in one of
 //! two ways: *exact* stops at every change of branch and is good to about 1e-12; *engine* takes steps of
 //! one length as the engine does, so that the error of a time step can be seen. [`closed_form`] says
-//! what theory expects, where it has a formula.
+//! what theory expects, where it has a formula. Oblique collisions, and those with spin, are the engine's.
 
 mod closed_form;
 mod dynamics;
@@ -11,6 +11,7 @@ mod engine;
 mod error;
 mod exact;
 mod extrapolation;
+mod oblique;
 mod outcome;
 mod picture;
 mod problem;
@@ -19,10 +20,13 @@ mod table;
 
 pub use closed_form::{ClosedForm, closed_form};
 pub use error::CollisionError;
+pub use oblique::{ObliqueOutcome, ObliqueSample};
 pub use outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
 pub use picture::{figure, sampling_interval};
 pub use sticking::sticking_ranges;
-pub use table::{COLUMNS, TRAJECTORY_COLUMNS, result_table, trajectory_table};
+pub use table::{
+    COLUMNS, OBLIQUE_COLUMNS, OBLIQUE_TRAJECTORY_COLUMNS, TRAJECTORY_COLUMNS, result_table, trajectory_table,
+};
 
 use problem::Problem;
 use pulvis_input::collision::{CollisionCase, CollisionScenario, Method};
@@ -30,10 +34,11 @@ use pulvis_input::collision::{CollisionCase, CollisionScenario, Method};
 /// Computes one collision.
 ///
 /// # Errors
-/// The motion does not end, or leaves the range of numbers.
+/// The motion does not end, or leaves the range of numbers; an oblique collision is asked for by the exact method.
 pub fn collide(case: &CollisionCase, observation: &Observation) -> Result<Collision, CollisionError> {
     let problem = Problem::new(case);
     match case.method {
+        Method::Exact if case.incidence.is_some() => Err(CollisionError::ObliqueExact),
         Method::Exact => exact::collide(&problem, observation),
         Method::Engine { steps_per_contact } => engine::collide(&problem, steps_per_contact, observation),
     }

@@ -1,5 +1,7 @@
 //! What comes of a collision.
 
+use super::oblique::{ObliqueOutcome, ObliqueSample};
+
 /// How a collision ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
@@ -27,7 +29,7 @@ pub struct Outcome {
     /// The branch of the law on which a pair that sticks stopped first.
     pub stop_branch: Option<&'static str>,
     /// Relative speed after over before, both outside the range of all forces; 0 where the pair
-    /// sticks [1].
+    /// sticks. Of an oblique collision, along the line of centres before [1].
     pub restitution: f64,
     /// Largest overlap [m].
     pub overlap_max: f64,
@@ -42,6 +44,8 @@ pub struct Outcome {
     /// Energy before minus all accounts at the end, over the largest energy that took part: zero but
     /// for errors of the integration [1].
     pub energy_error: f64,
+    /// The tangential motion after an oblique collision.
+    pub oblique: Option<ObliqueOutcome>,
 }
 
 /// One instant of a collision.
@@ -69,6 +73,8 @@ pub struct Sample {
     pub potential_attraction: f64,
     /// Energy lost so far [J].
     pub dissipated: f64,
+    /// The tangential motion in an oblique collision. Kinetic and available energies are then those of all motions.
+    pub oblique: Option<ObliqueSample>,
 }
 
 /// A collision and, if asked for, its course.

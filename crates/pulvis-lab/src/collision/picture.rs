@@ -1,5 +1,7 @@
 //! Results as a picture: restitution over the swept variable, force loops, energies over time.
 
+mod comparison;
+
 use super::closed_form::closed_form;
 use super::error::CollisionError;
 use super::outcome::{Collision, Observation, Regime, Sample, Sampling};
@@ -24,12 +26,16 @@ const AFTER_STICKING: f64 = 4.0;
 /// # Errors
 /// A collision that cannot be computed; some are computed again to record their course.
 pub fn figure(scenario: &CollisionScenario, points: &[SweepPoint]) -> Result<Figure, CollisionError> {
+    if scenario.labels.len() > 1 {
+        return comparison::figure(scenario, points);
+    }
     let mut figure = Figure::new();
     if let Some(title) = &scenario.title {
         figure = figure.title(title);
     }
     if points.len() > 1 {
         figure = figure.panel(restitution_chart(scenario, points));
+        figure = comparison::tangential_charts(scenario, points).into_iter().fold(figure, Figure::panel);
     }
     let chosen = representatives(points);
     let mut courses = Vec::new();
@@ -76,8 +82,11 @@ fn representatives(points: &[SweepPoint]) -> Vec<&SweepPoint> {
 }
 
 fn label(scenario: &CollisionScenario, case: &CollisionCase) -> String {
-    let value = pulvis_io::table::significant(case.value, 4);
     let symbol = axis_symbol(&scenario.variable);
+    if is_angle(&scenario.variable) {
+        return format!("{symbol} = {}°", pulvis_io::table::significant(case.value.to_degrees(), 4));
+    }
+    let value = pulvis_io::table::significant(case.value, 4);
     match scenario.variable.unit() {
         "1" => format!("{symbol} = {value}"),
         unit => format!("{symbol} = {value} {unit}"),
@@ -87,14 +96,28 @@ fn label(scenario: &CollisionScenario, case: &CollisionCase) -> String {
 fn axis_symbol(variable: &SweptVariable) -> &str {
     match variable {
         SweptVariable::Single | SweptVariable::Velocity => "v",
+        SweptVariable::NormalVelocity => "vₙ",
         SweptVariable::Chi => "χ",
         SweptVariable::Zeta => "ζ",
         SweptVariable::Key { path, .. } => path.rsplit('.').next().unwrap_or(path),
     }
 }
 
+/// Whether an angle is swept, which pictures show in degrees.
+fn is_angle(variable: &SweptVariable) -> bool {
+    matches!(variable, SweptVariable::Key { unit, .. } if unit == "rad")
+}
+
+/// The place of a collision on the axis of the swept variable.
+fn axis_value(scenario: &CollisionScenario, point: &SweepPoint) -> f64 {
+    let value = point.case.value;
+    if is_angle(&scenario.variable) { value.to_degrees() } else { value }
+}
+
 fn axis_label(variable: &SweptVariable) -> String {
     match variable {
+        SweptVariable::NormalVelocity => "relative velocity along the line of centres vₙ [m/s]".to_owned(),
+        SweptVariable::Key { .. } if is_angle(variable) => "angle of incidence [deg]".to_owned(),
         SweptVariable::Single | SweptVariable::Velocity => "relative velocity v [m/s]".to_owned(),
         SweptVariable::Chi => "impact velocity χ = v/vₚ₀ [1]".to_owned(),
         SweptVariable::Zeta => "impact velocity ζ = v/vₚ [1]".to_owned(),
@@ -110,11 +133,16 @@ fn restitution_chart(scenario: &CollisionScenario, points: &[SweepPoint]) -> Cha
     if scenario.logarithmic {
         chart = chart.log_x();
     }
+    if points.iter().any(|point| point.case.incidence.is_some()) {
+        // Often it is the same at all angles: the axis shall not show round-off.
+        chart = chart.zero_line();
+    }
     let theory = theory_line(scenario, points);
     if theory.iter().any(|(_, restitution)| restitution.is_finite()) {
         chart = chart.series(Series::line("theory", theory));
     }
-    let computed = points.iter().map(|point| (point.case.value, point.collision.outcome.restitution));
+    let computed =
+        points.iter().map(|point| (axis_value(scenario, point), point.collision.outcome.restitution));
     chart = chart.series(Series::points("computed", computed));
     for (value, name) in limits(scenario, points) {
         chart = chart.marker(value, name);
@@ -182,7 +210,7 @@ fn speed_unit(scenario: &CollisionScenario, point: &SweepPoint) -> Option<SpeedU
             let pair = pair?;
             Some(SpeedUnit { pair: Some(pair), unit: pair.v_p()? })
         }
-        SweptVariable::Single | SweptVariable::Key { .. } => None,
+        SweptVariable::NormalVelocity | SweptVariable::Single | SweptVariable::Key { .. } => None,
     }
 }
 

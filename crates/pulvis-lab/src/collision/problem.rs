@@ -1,7 +1,7 @@
 //! One collision, as both methods see it.
 
 use pulvis_contact::{ContactModel, Pair};
-use pulvis_input::collision::{Bodies, CollisionCase};
+use pulvis_input::collision::{Bodies, CollisionCase, Incidence};
 use pulvis_math::elementary;
 
 /// One collision with what follows from its bodies and laws.
@@ -11,6 +11,10 @@ pub(super) struct Problem<'c> {
     pub pair: Pair,
     /// Relative speed outside the range of all forces [m/s].
     pub velocity: f64,
+    /// Its part along the line of centres [m/s].
+    pub normal_velocity: f64,
+    /// Angle and spins of an oblique collision.
+    pub incidence: Option<Incidence>,
     /// Shortest duration of any motion of the contact [s].
     pub shortest_time: f64,
 }
@@ -20,12 +24,14 @@ impl<'c> Problem<'c> {
         let (i, j) = case.bodies.masses_and_radii();
         // A law without a steepest slope takes its stiffness from what this collision will bring.
         let mut expecting = case.contact;
-        expecting.laws.expected.speed = expecting.laws.expected.speed.max(case.velocity);
+        expecting.laws.expected.speed = expecting.laws.expected.speed.max(case.normal_velocity());
         Self {
             contact: &case.contact,
             bodies: &case.bodies,
             pair: case.bodies.pair(),
             velocity: case.velocity,
+            normal_velocity: case.normal_velocity(),
+            incidence: case.incidence,
             shortest_time: expecting.shortest_contact_time(i, j),
         }
     }

@@ -61,7 +61,15 @@ struct Search<'c> {
 impl Search<'_> {
     fn case(&self, velocity: f64) -> CollisionCase {
         let (bodies, contact) = (self.bodies, *self.contact);
-        CollisionCase { value: velocity, velocity, bodies, contact, method: Method::Exact }
+        CollisionCase {
+            value: velocity,
+            velocity,
+            incidence: None,
+            bodies,
+            contact,
+            contact_number: 0,
+            method: Method::Exact,
+        }
     }
 
     /// The speed that reaches the plastic limit, or one that makes a small overlap [m/s].

@@ -1,8 +1,8 @@
 //! Results as tables.
 
 use super::SweepPoint;
-use super::outcome::Sample;
-use pulvis_input::collision::{CollisionScenario, SweptVariable, luding_pair};
+use super::outcome::{Regime, Sample};
+use pulvis_input::collision::{Bodies, CollisionScenario, SweptVariable, luding_pair};
 use pulvis_io::IoError;
 use pulvis_io::table::{Cell, Table};
 
@@ -25,6 +25,24 @@ pub const COLUMNS: [&str; 14] = [
     "energy_error",
 ];
 
+/// The columns that results of oblique collisions have beside [`COLUMNS`], in SI units.
+pub const OBLIQUE_COLUMNS: [&str; 14] = [
+    "angle",
+    "restitution_tangential",
+    "restitution_contact",
+    "rebound_angle",
+    "rebound_angle_contact",
+    "impulse_ratio",
+    "omega_i_x",
+    "omega_i_y",
+    "omega_i_z",
+    "omega_j_x",
+    "omega_j_y",
+    "omega_j_z",
+    "momentum_error",
+    "angular_momentum_error",
+];
+
 /// The columns of a trajectory, in SI units.
 pub const TRAJECTORY_COLUMNS: [&str; 10] = [
     "time",
@@ -39,11 +57,29 @@ pub const TRAJECTORY_COLUMNS: [&str; 10] = [
     "potential_attraction",
 ];
 
+/// The columns that trajectories of oblique collisions have beside [`TRAJECTORY_COLUMNS`], in SI units.
+pub const OBLIQUE_TRAJECTORY_COLUMNS: [&str; 5] =
+    ["tangential_velocity", "contact_velocity", "tangential_force", "omega_i_z", "omega_j_z"];
+
 /// How many of the columns a table for the screen has.
 const BRIEF: usize = 10;
 
-/// One row a collision; where a parameter is swept, its value stands in one more column, the last.
-/// A `brief` table leaves out what would not fit on a screen.
+/// What a table of oblique collisions for the screen has.
+const BRIEF_OBLIQUE: [&str; 10] = [
+    "velocity",
+    "angle",
+    "restitution",
+    "restitution_tangential",
+    "restitution_contact",
+    "rebound_angle",
+    "impulse_ratio",
+    "omega_i_z",
+    "omega_j_z",
+    "regime",
+];
+
+/// One row a collision. Where contacts are compared, the name of the contact stands in one more column; where a parameter
+/// is swept, its value in the last. A `brief` table leaves out what would not fit on a screen.
 ///
 /// # Errors
 /// None in practice: every row has all columns.
@@ -52,17 +88,55 @@ pub fn result_table(
     points: &[SweepPoint],
     brief: bool,
 ) -> Result<Table, IoError> {
-    let count = if brief { BRIEF } else { COLUMNS.len() };
+    let oblique = scenario.cases.iter().any(|case| case.incidence.is_some());
+    let wanted = |(number, name): &(usize, &str)| match (brief, oblique) {
+        (true, true) => BRIEF_OBLIQUE.contains(name),
+        (true, false) => *number < BRIEF,
+        (false, oblique) => oblique || *number < COLUMNS.len(),
+    };
+    let columns = || COLUMNS.into_iter().chain(OBLIQUE_COLUMNS).enumerate().filter(wanted);
     let key = match &scenario.variable {
         SweptVariable::Key { path, .. } => Some(path.as_str()),
         _ => None,
     };
-    let mut table = Table::new(COLUMNS.into_iter().take(count).chain(key));
+    let several = scenario.labels.len() > 1;
+    let names = columns().map(|(_, name)| name);
+    let mut table = Table::new(names.chain(several.then_some("contact")).chain(key));
     for point in points {
+        let label = scenario.labels.get(point.case.contact_number).filter(|_| several);
+        let label = label.map(|label| Cell::from(label.as_str()));
         let value = key.map(|_| Cell::Number(point.case.value));
-        table.push(cells(point).into_iter().take(count).chain(value))?;
+        let cells: Vec<Cell> = cells(point).into_iter().chain(oblique_cells(point)).collect();
+        let wanted = columns().map(|(number, _)| cells.get(number).cloned().unwrap_or(Cell::Empty));
+        table.push(wanted.chain(label).chain(value))?;
     }
     Ok(table)
+}
+
+fn oblique_cells(point: &SweepPoint) -> [Cell; OBLIQUE_COLUMNS.len()] {
+    let outcome = point.collision.outcome;
+    let rebounds = outcome.regime == Regime::Rebound;
+    let oblique = outcome.oblique.filter(|_| rebounds);
+    let spins = oblique.map(|oblique| oblique.angular_velocities);
+    // A wall does not spin.
+    let spin_j = spins.filter(|_| matches!(point.case.bodies, Bodies::Pair(_)));
+    let errors = outcome.oblique.and_then(|oblique| oblique.momentum_errors);
+    [
+        point.case.incidence.map(|incidence| incidence.angle).into(),
+        oblique.and_then(|oblique| oblique.restitution_tangential).into(),
+        oblique.and_then(|oblique| oblique.restitution_contact).into(),
+        oblique.map(|oblique| oblique.rebound_angle).into(),
+        oblique.map(|oblique| oblique.rebound_angle_contact).into(),
+        oblique.map(|oblique| oblique.impulse_ratio).into(),
+        spins.map(|[spin, _]| spin.x).into(),
+        spins.map(|[spin, _]| spin.y).into(),
+        spins.map(|[spin, _]| spin.z).into(),
+        spin_j.map(|[_, spin]| spin.x).into(),
+        spin_j.map(|[_, spin]| spin.y).into(),
+        spin_j.map(|[_, spin]| spin.z).into(),
+        errors.map(|[linear, _]| linear).into(),
+        errors.map(|[_, angular]| angular).into(),
+    ]
 }
 
 fn cells(point: &SweepPoint) -> [Cell; COLUMNS.len()] {
@@ -95,8 +169,14 @@ fn cells(point: &SweepPoint) -> [Cell; COLUMNS.len()] {
 /// # Errors
 /// None in practice: every row has all columns.
 pub fn trajectory_table(course: &[Sample]) -> Result<Table, IoError> {
-    let mut table = Table::new(TRAJECTORY_COLUMNS);
+    let oblique = course.iter().any(|sample| sample.oblique.is_some());
+    let more = OBLIQUE_TRAJECTORY_COLUMNS.into_iter().filter(|_| oblique);
+    let mut table = Table::new(TRAJECTORY_COLUMNS.into_iter().chain(more));
     for sample in course {
+        let tangential = sample.oblique.map(|oblique| {
+            let [spin_i, spin_j] = oblique.angular_velocities;
+            [oblique.velocity, oblique.contact_velocity, oblique.force, spin_i, spin_j]
+        });
         let row = [
             sample.time,
             sample.overlap,
@@ -109,7 +189,7 @@ pub fn trajectory_table(course: &[Sample]) -> Result<Table, IoError> {
             sample.dissipated,
             sample.potential_attraction,
         ];
-        table.push(row.map(Cell::Number))?;
+        table.push(row.into_iter().chain(tangential.into_iter().flatten()).map(Cell::Number))?;
     }
     Ok(table)
 }

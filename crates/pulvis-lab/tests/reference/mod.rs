@@ -73,8 +73,10 @@ impl Row {
         CollisionCase {
             value: velocity,
             velocity,
+            incidence: None,
             bodies: self.bodies(),
             contact: self.contact(),
+            contact_number: 0,
             method: Method::Exact,
         }
     }

@@ -37,6 +37,7 @@ impl Flight<'_> {
             contact_duration: self.opening_time.zip(self.touch_time).map(|(end, start)| end - start),
             energy_dissipated: dissipated,
             energy_error: (before - now) / self.largest_energy,
+            oblique: None,
         }
     }
 
@@ -102,6 +103,7 @@ impl Flight<'_> {
             ),
             potential_attraction: energies.adhesive_potential,
             dissipated: self.lost + viscous,
+            oblique: None,
         }
     }
 }
