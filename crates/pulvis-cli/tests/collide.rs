@@ -94,7 +94,8 @@ fn laws_are_compared_in_one_table_and_one_picture() {
     assert_eq!(labels[3..], ["smooth"; 3]);
     let ratio = |row: &Vec<&str>| row[column("impulse_ratio")].parse::<f64>().unwrap();
     assert!(
-        rows[1..4].iter().all(|row| ratio(row) > 0.05) && rows[4..].iter().all(|row| ratio(row).abs() < 1e-12)
+        rows[1..4].iter().all(|row| ratio(row) > 0.05)
+            && rows[4..].iter().all(|row| ratio(row).abs() < 1e-12)
     );
     let drawn = fs::read_to_string(&picture).unwrap();
     for words in ["smooth", "linear + spring-slider", "Tangential over normal impulse", "Force over overlap"]
