@@ -48,8 +48,8 @@ pub use memory::{Columns, Memory, MemoryLayout, MemorySlots};
 pub use model::{ContactLaws, ContactModel};
 pub use noncontact::NonContact;
 pub use normal::{
-    Dahneke, Dmt, Hertz, Jkr, Linear, Luding, Normal, NormalLaw, NormalLawVisitor, NormalResponse,
-    WaltonJohnson,
+    Dahneke, Dmt, Hertz, Jkr, LeeRadok, Linear, Luding, Normal, NormalLaw, NormalLawVisitor, NormalResponse,
+    ThorntonNing, ViscoelasticJkr, WaltonJohnson,
 };
 pub use pair::Pair;
 pub use response::ContactResponse;

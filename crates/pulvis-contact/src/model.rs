@@ -75,7 +75,7 @@ impl ContactModel {
     /// Whether the forces between the bodies of `pair` depend on how fast these move, or on time.
     pub fn depends_on_time(&self, pair: &Pair) -> bool {
         self.normal.depends_on_time()
-            || self.normal.dashpot(pair) > 0.0
+            || self.normal.dashpot(pair, &self.laws.expected) > 0.0
             || !matches!(self.laws.viscosity, Viscosity::None(_))
             || self.laws.has_resistance_dashpot()
     }

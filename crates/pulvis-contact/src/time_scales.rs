@@ -73,7 +73,8 @@ impl ContactModel {
     pub fn steepest_normal(&self, body_i: (f64, f64), body_j: impl Into<Partner>) -> (f64, f64) {
         let pair = body_j.into().pair_with(body_i);
         let elastic = self.normal.max_stiffness(&pair, &self.laws.expected);
-        let dashpot = self.normal.dashpot(&pair) + self.laws.viscosity.largest_coefficient(&pair, elastic);
+        let dashpot = self.normal.dashpot(&pair, &self.laws.expected)
+            + self.laws.viscosity.largest_coefficient(&pair, elastic);
         (elastic.max(self.laws.noncontact.max_stiffness(&pair)), dashpot)
     }
 }

@@ -2,11 +2,13 @@
 
 use std::f64::consts::PI;
 
-use pulvis_math::{Dimension, Mask, Real, elementary};
+use pulvis_math::{Mask, Real, elementary};
 
+use super::adhesive_curve as curve;
+use super::dmt::WORK_OF_ADHESION;
 use super::hertz::{EFFECTIVE_MODULUS, effective_radius, expected_overlap};
 use super::{NormalLaw, NormalResponse};
-use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
+use crate::catalogue::{InvalidParameter, Law, LawEntry, Role, Values};
 use crate::events;
 use crate::expected::ExpectedLoading;
 use crate::functions::cbrt;
@@ -51,16 +53,7 @@ F   = 4 E* a³/(3 R) − √(8 π Γ E* a³)   δ = a²/R − √(2 π Γ a/E*)
 attached from δ ≥ 0 until δ ≤ δ_sep = −3 a_sep²/R,  a_sep = (π Γ R²/(8 E*))^(1/3)
 F_c = (3/2) π Γ R                      pull-off force;  friction refers to F + 2 F_c",
         source: "Johnson, Kendall & Roberts, Proc. R. Soc. Lond. A 324, 301 (1971)",
-        parameters: &[
-            EFFECTIVE_MODULUS,
-            Parameter::number(
-                "work_of_adhesion",
-                "Γ",
-                Dimension::STIFFNESS,
-                Range::Positive,
-                "work of adhesion of both surfaces together, 2 γ_s for equal materials (1 J/m² = 1 N/m)",
-            ),
-        ],
+        parameters: &[EFFECTIVE_MODULUS, WORK_OF_ADHESION],
         memory: &["cube_root_radius [m^(1/3)]"],
         closed_form: "pull-off, separation and restitution in pulvis_contact::theory::jkr",
         example: "law = \"jkr\"\neffective_modulus = \"1e9 Pa\"\nwork_of_adhesion = \"0.1 N/m\"",
@@ -70,11 +63,6 @@ F_c = (3/2) π Γ R                      pull-off force;  friction refers to F +
         Ok(Self::new(values.number("effective_modulus")?, values.number("work_of_adhesion")?))
     }
 }
-
-/// Loss at snap-in over F_c s/9, −U at y³ = 4: 3.6 · 4^(4/3).
-const SNAP_IN: f64 = 22.858_575_148_342_073;
-/// Loss at snap-off over F_c s/9, U at y = 1.
-const SNAP_OFF: f64 = 2.4;
 
 impl Jkr {
     /// Effective modulus E* [Pa] and work of adhesion Γ of both surfaces together [J/m²].
@@ -88,16 +76,14 @@ impl Jkr {
         let root = elementary::cbrt(radius);
         self.separation_scale * root * root
     }
-}
 
-impl NormalLaw for Jkr {
-    /// The cube root of the effective radius while the bodies are attached, zero while they are not.
-    type Memory<R: Real> = [R; 1];
-
-    const PATH_ONLY: bool = false;
-
+    /// The answer, and y³ where the bodies are attached.
     #[inline(always)]
-    fn respond<R: Real>(&self, motion: &NormalMotion<R>, memory: &mut [R; 1]) -> NormalResponse<R> {
+    pub(super) fn on_curve<R: Real>(
+        &self,
+        motion: &NormalMotion<R>,
+        memory: &mut [R; 1],
+    ) -> (NormalResponse<R>, R) {
         let number = R::splat;
         let (zero, one) = (R::zero(), R::one());
         let before = memory[0].gt(zero);
@@ -116,23 +102,21 @@ impl NormalLaw for Jkr {
         let e = number(3.0) + motion.overlap / unit;
         let attached = bound & e.gt(zero);
         let ends = before & !attached;
-        let y = invert(e.max(number(f64::MIN_POSITIVE)));
+        let y = curve::invert(e.max(number(f64::MIN_POSITIVE)));
 
         let cube = y * y * y;
         let ninth = number(PI / 6.0 * self.work_of_adhesion) * (safe * safe * safe);
         let contact_radius = (number(scale) * (safe * safe) * (y * y)).keep_where(attached);
-        let force = (ninth * cube * (cube - number(6.0))).keep_where(attached);
-        let above = cube - number(3.0);
-        let limit = (ninth * (above * above + number(9.0))).keep_where(attached);
+        let force = (ninth * curve::force(cube)).keep_where(attached);
+        let limit = (ninth * curve::friction_reference(cube)).keep_where(attached);
         let energy = ninth * unit;
-        let shape = number(0.4) * (cube * cube) - number(4.0) * cube + number(6.0);
-        let potential = (energy * (y * cube) * shape).keep_where(attached);
+        let potential = (energy * curve::energy(y, cube)).keep_where(attached);
         let surface = number(-PI * self.work_of_adhesion) * contact_radius * contact_radius;
         let mut lost = zero;
         let mut applied_force = force;
         if (sets_in | ends).any() {
-            lost =
-                (energy * number(SNAP_IN)).keep_where(sets_in) + (energy * number(SNAP_OFF)).keep_where(ends);
+            lost = (energy * number(curve::SNAP_IN)).keep_where(sets_in)
+                + (energy * number(curve::SNAP_OFF)).keep_where(ends);
             let separation_force = number(-5.0) * ninth;
             // Bodies that overlapped already, in a first look or under another law, met before this step.
             let meets = sets_in & attached & !motion.touched_before();
@@ -142,7 +126,7 @@ impl NormalLaw for Jkr {
                 R::select(ends, events::ends(motion, separation, separation_force), applied_force);
         }
         memory[0] = root.keep_where(attached);
-        NormalResponse {
+        let answer = NormalResponse {
             applied_force,
             in_contact: attached,
             was_in_contact: before | motion.touched_before(),
@@ -157,7 +141,20 @@ impl NormalLaw for Jkr {
                 potential - surface,
                 number(2.0 * self.effective_modulus) * contact_radius,
             )
-        }
+        };
+        (answer, cube)
+    }
+}
+
+impl NormalLaw for Jkr {
+    /// The cube root of the effective radius while the bodies are attached, zero while they are not.
+    type Memory<R: Real> = [R; 1];
+
+    const PATH_ONLY: bool = false;
+
+    #[inline(always)]
+    fn respond<R: Real>(&self, motion: &NormalMotion<R>, memory: &mut [R; 1]) -> NormalResponse<R> {
+        self.on_curve(motion, memory).0
     }
 
     fn interaction_range(&self, pair: &Pair<f64>) -> f64 {
@@ -179,29 +176,9 @@ impl NormalLaw for Jkr {
     fn expected_contact_radius(&self, pair: &Pair<f64>, expected: &ExpectedLoading) -> f64 {
         let separation_radius = self.separation_radius(effective_radius(pair));
         let overlap = expected_overlap(self.effective_modulus, pair, expected);
-        let y = invert(3.0 * (1.0 + overlap / self.interaction_range(pair)));
+        let y = curve::invert(3.0 * (1.0 + overlap / self.interaction_range(pair)));
         separation_radius * (y * y).max(2.0)
     }
-}
-
-/// y = 1 + z for z² (z² + 4 z + 6) = e = 3 + δ/s: z does not cancel near the double root at separation.
-///
-/// The start errs by less than 0.32 %, each step of Halley's method cubes that: after two it is round-off.
-#[inline(always)]
-fn invert<R: Real>(e: R) -> R {
-    let number = R::splat;
-    let q = e.sqrt();
-    let bent = number(1.468) * q;
-    let r = (number(4.0) + bent).sqrt();
-    let w = q - bent / (r * (r + number(2.0)));
-    let mut z = w / (R::one() + (R::one() + w).sqrt());
-    for _ in 0..2 {
-        let y = z + R::one();
-        let p = z * z * (z * (z + number(4.0)) + number(6.0)) - e;
-        let d = z * (z * (z + number(3.0)) + number(3.0));
-        z -= number(2.0) * p * d / (number(8.0) * d * d - number(3.0) * p * y * y);
-    }
-    z + R::one()
 }
 
 #[cfg(test)]
@@ -214,19 +191,6 @@ mod tests {
 
     fn wall() -> Pair {
         Pair::wall(1e-14, 1e-6)
-    }
-
-    #[test]
-    fn the_inversion_is_good_to_round_off_from_separation_to_deep_contact() {
-        for exponent in -30..=25 {
-            for mantissa in [1.0, 2.3, 4.9, 7.7] {
-                let e: f64 = mantissa * elementary::powi(10.0, exponent);
-                let z = invert(e) - 1.0;
-                let error = z * z * (z * z + 4.0 * z + 6.0) / e - 1.0;
-                // z itself is taken from y = 1 + z here, which rounds it to one unit of 1.
-                assert!(error.abs() < 4e-15 + 4.0 * f64::EPSILON / z.abs().max(1e-16), "{e}: {error}");
-            }
-        }
     }
 
     #[test]

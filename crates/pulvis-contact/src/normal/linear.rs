@@ -182,7 +182,7 @@ impl NormalLaw for Linear {
         }
     }
 
-    fn dashpot(&self, pair: &Pair<f64>) -> f64 {
+    fn dashpot(&self, pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
         self.dashpot_of(pair)
     }
 

@@ -11,6 +11,7 @@ use crate::kinematics::NormalMotion;
 use crate::memory::{self, Columns, Memory};
 use crate::pair::Pair;
 
+mod adhesive_curve;
 mod attracted_spheres;
 mod dahneke;
 mod dmt;
@@ -18,11 +19,14 @@ mod eepa;
 mod hertz;
 mod jkr;
 mod kempton;
+mod lee_radok;
 mod linear;
 mod luding;
 mod molerus;
 mod pasha;
 mod response;
+mod thornton_ning;
+mod viscoelastic_jkr;
 mod walton_braun;
 mod walton_braun_variable;
 mod walton_johnson;
@@ -33,11 +37,14 @@ pub use eepa::{Eepa, EepaMemory};
 pub use hertz::Hertz;
 pub use jkr::Jkr;
 pub use kempton::Kempton;
+pub use lee_radok::{LeeRadok, LeeRadokMemory};
 pub use linear::Linear;
 pub use luding::{Interpolation, Luding, LudingMemory};
 pub use molerus::{Molerus, MolerusMemory};
 pub use pasha::{Pasha, PashaMemory};
 pub use response::NormalResponse;
+pub use thornton_ning::{ThorntonNing, ThorntonNingMemory};
+pub use viscoelastic_jkr::{ViscoelasticJkr, ViscoelasticJkrMemory};
 pub use walton_braun::WaltonBraun;
 pub use walton_braun_variable::WaltonBraunVariable;
 pub use walton_johnson::{WaltonJohnson, WaltonJohnsonMemory};
@@ -67,9 +74,16 @@ pub trait NormalLaw: Law + Listed {
         0.0
     }
 
-    /// Coefficient of the law's own dashpot, at the most [kg/s]; most laws leave viscosity to the viscous law.
-    fn dashpot(&self, _pair: &Pair<f64>) -> f64 {
+    /// Coefficient of the law's own dashpot, at the most under the `expected` loading [kg/s]; most laws leave viscosity to
+    /// the viscous law.
+    fn dashpot(&self, _pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
         0.0
+    }
+
+    /// Whether no closed path gains energy from the law. A published form that creates energy says no: its losses may be
+    /// negative, and it may apply a force of the rate beside its dashpot.
+    fn is_passive(&self) -> bool {
+        true
     }
 
     /// The name of the branch on which the point (overlap [m], memory) lies, and its number, which
@@ -275,7 +289,8 @@ macro_rules! normal_laws {
 normal_laws![
     common: Hertz, Linear, Luding;
     others:
-        Dahneke, Dmt, Eepa, Jkr, Kempton, Molerus, Pasha, WaltonBraun, WaltonBraunVariable, WaltonJohnson
+        Dahneke, Dmt, Eepa, Jkr, Kempton, LeeRadok, Molerus, Pasha, ThorntonNing, ViscoelasticJkr,
+        WaltonBraun, WaltonBraunVariable, WaltonJohnson
 ];
 
 macro_rules! forwarded {
@@ -303,7 +318,7 @@ forwarded!(
 );
 forwarded!(
     /// See [`NormalLaw::dashpot`].
-    dashpot(pair: Pair) -> f64
+    dashpot(pair: Pair, expected: ExpectedLoading) -> f64
 );
 forwarded!(
     /// See [`NormalLaw::max_stiffness`].
@@ -325,6 +340,18 @@ impl Normal {
             }
         }
         self.accept(Bounded)
+    }
+
+    /// See [`NormalLaw::is_passive`].
+    pub fn is_passive(&self) -> bool {
+        struct IsPassive;
+        impl NormalLawVisitor for IsPassive {
+            type Output = bool;
+            fn visit<N: NormalLaw>(self, law: &N) -> bool {
+                law.is_passive()
+            }
+        }
+        self.accept(IsPassive)
     }
 
     /// See [`NormalLaw::DEPENDS_ON_TIME`].

@@ -183,6 +183,14 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
         (Ok(_), _) => Ok(Sweep::single()),
         (Err(reported), _) => Err(reported),
     };
+    let method = match (method, &contacts) {
+        (Ok(Method::Exact), Ok(contacts))
+            if contacts.iter().any(|contact| contact.contact.model.normal.depends_on_time()) =>
+        {
+            Err(needs_steps(&table))
+        }
+        (method, _) => method,
+    };
     let (bodies, incidence, method, speed) = (bodies?, incidence?, method?, speed?);
     let (sweep, contacts) = (sweep?, contacts?);
     let mut cases = Ok(Vec::new());
@@ -205,6 +213,12 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
         labels: contacts.into_iter().map(|contact| contact.label).collect(),
         document: None,
     })
+}
+
+/// Reports that a law whose memory changes with time cannot be followed from branch to branch.
+fn needs_steps(table: &TableReader<'_>) -> Reported {
+    let found = "\"exact\" follows laws that depend on the overlap, and this one relaxes with time";
+    table.refuse("method", Problem::rule(found, "`method = \"engine\"`"))
 }
 
 /// Steps of an oblique collision in the shortest contact time, unless told otherwise: errors of 1e-6.

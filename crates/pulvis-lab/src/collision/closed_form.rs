@@ -64,7 +64,7 @@ pub fn closed_form(case: &CollisionCase) -> Option<ClosedForm> {
 
 /// The coefficient of all dashpots if it is a constant [kg/s].
 fn dashpot(problem: &Problem<'_>) -> Option<f64> {
-    let own = problem.contact.normal.dashpot(&problem.pair);
+    let own = problem.contact.normal.dashpot(&problem.pair, &problem.contact.laws.expected);
     let viscosity = problem.contact.laws.viscosity;
     // Of constant dashpots the largest coefficient is the one that there is.
     let largest = viscosity.largest_coefficient(&problem.pair, 0.0);

@@ -38,7 +38,7 @@ impl<'c> Problem<'c> {
 
     /// Whether a dashpot acts along the line of centres, be it the normal law's own.
     pub fn is_damped(&self) -> bool {
-        let own = self.contact.normal.dashpot(&self.pair);
+        let own = self.contact.normal.dashpot(&self.pair, &self.contact.laws.expected);
         own + self.contact.laws.viscosity.largest_coefficient(&self.pair, self.stiffness_scale()) > 0.0
     }
 

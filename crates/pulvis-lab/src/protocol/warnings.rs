@@ -175,7 +175,8 @@ pub(super) fn damping_ratios(
     };
     let laws = &model.laws;
     let stiffness = model.normal.max_stiffness(&pair, &laws.expected);
-    let dashpot = model.normal.dashpot(&pair) + laws.viscosity.largest_coefficient(&pair, stiffness);
+    let dashpot =
+        model.normal.dashpot(&pair, &laws.expected) + laws.viscosity.largest_coefficient(&pair, stiffness);
     let scale = model.scale(&pair);
     let ratio = |dashpot: f64, stiffness: f64, inverse_mass: f64| {
         if dashpot > 0.0 && stiffness > 0.0 { dashpot * (inverse_mass / stiffness).sqrt() / 2.0 } else { 0.0 }

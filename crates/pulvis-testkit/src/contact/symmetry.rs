@@ -208,12 +208,18 @@ pub(super) fn momentum_is_only_exchanged(model: &ContactModel, dance: &Dance) {
 
 pub(super) fn losses_are_losses(model: &ContactModel, dance: &Dance) {
     let performance = perform(model, dance, &as_it_is());
-    let scale = performance.iter().map(|moment| moment.answer.energies.elastic_normal).fold(1e-290, f64::max);
+    let turned_over = |moment: &Moment| {
+        let e = &moment.answer.energies;
+        e.elastic_normal + e.dissipated_plastic.abs() + e.dissipated_adhesive.abs()
+    };
+    let scale = performance.iter().map(turned_over).fold(1e-290, f64::max);
     for Moment { answer, .. } in &performance {
         let e = &answer.energies;
         assert!(e.viscous_power >= 0.0, "{e:?}, {model:?}");
-        assert!(e.dissipated_plastic >= -1e-12 * scale, "{e:?}, {model:?}");
-        assert!(e.dissipated_adhesive >= -1e-12 * scale, "{e:?}, {model:?}");
+        if model.normal.is_passive() {
+            assert!(e.dissipated_plastic >= -1e-12 * scale, "{e:?}, {model:?}");
+            assert!(e.dissipated_adhesive >= -1e-12 * scale, "{e:?}, {model:?}");
+        }
         let stored = [e.elastic_normal, e.elastic_sliding, e.elastic_rolling, e.elastic_torsion];
         assert!(stored.iter().all(|&energy| energy >= 0.0), "{e:?}, {model:?}");
     }

@@ -15,7 +15,7 @@ const MOST_STEPS: u64 = 3000;
 /// What a collision may lose or gain beside what the law dissipates, of its energy. The method errs by the square of the
 /// step, (π/50)²/8 = 5e-4 of the energy in the stiffest branch; where the force jumps, also that of a dashpot at touch, by
 /// several times that.
-fn allowed(law: &Normal, pair: &Pair) -> f64 {
+fn allowed(law: &Normal, pair: &Pair, expected: &ExpectedLoading) -> f64 {
     struct Jumps;
     impl NormalLawVisitor for Jumps {
         type Output = bool;
@@ -23,7 +23,7 @@ fn allowed(law: &Normal, pair: &Pair) -> f64 {
             N::JUMPS
         }
     }
-    if law.accept(Jumps) || law.dashpot(pair) > 0.0 { 5e-3 } else { 1e-3 }
+    if law.accept(Jumps) || law.dashpot(pair, expected) > 0.0 { 5e-3 } else { 1e-3 }
 }
 
 /// A head-on collision of random bodies at a random speed, for which the law's greatest stiffness is asked.
@@ -65,7 +65,7 @@ pub(super) fn a_collision_at_the_automatic_step_keeps_its_energy(law: &Normal, d
     }
     let missing: f64 = (couple.kinetic_energy() + couple.stored + couple.lost - energy) / most;
     assert!(
-        missing.abs() < allowed(law, &pair),
+        missing.abs() < allowed(law, &pair, &expected),
         "{law:?}: {missing} of the energy is missing at {speed} m/s, {pair:?}"
     );
 }

@@ -55,7 +55,7 @@ impl<N: NormalLaw> Path<'_, N> {
         let state = || format!("{:?}: {answer:?}, of {scale} J, at {overlap} m", bench.law);
         self.work += 0.5 * (self.force + answer.force) * (overlap - self.overlap);
         for loss in [answer.dissipated_plastic, answer.dissipated_adhesive] {
-            assert!(loss >= -1e-12 * scale, "{}", state());
+            assert!(loss >= -1e-12 * scale || !bench.law.is_passive(), "{}", state());
             self.lost += loss;
         }
         assert!(answer.stored_energy >= 0.0, "{}", state());
@@ -114,5 +114,6 @@ pub(super) fn work_is_stored_or_dissipated<N: NormalLaw>(bench: &Bench<N>, draw:
         path.go(target);
     }
     // The cycle is closed: nothing is stored, so the work done is what was lost, never negative.
-    assert!(path.work >= -path.allowed(), "{:?}: a cycle gives {} J", bench.law, -path.work);
+    let passive = bench.law.is_passive();
+    assert!(path.work >= -path.allowed() || !passive, "{:?}: a cycle gives {} J", bench.law, -path.work);
 }

@@ -1,6 +1,8 @@
 //! What every normal law promises (see `pulvis_contact::normal::NormalLaw`).
 
-use pulvis_contact::{Memory, Normal, NormalLaw, NormalLawVisitor, NormalMotion, NormalResponse, Pair};
+use pulvis_contact::{
+    ExpectedLoading, Memory, Normal, NormalLaw, NormalLawVisitor, NormalMotion, NormalResponse, Pair,
+};
 use pulvis_math::{Mask, Real};
 
 use crate::draw::Draw;
@@ -53,6 +55,8 @@ struct Bench<N: NormalLaw> {
     range: f64,
     /// The largest overlap of the tests [m].
     span: f64,
+    /// The loading up to 1.3 times the largest overlap.
+    loading: ExpectedLoading,
     /// Steepest slope of the force up to 1.3 times the largest overlap [N/m].
     max_stiffness: f64,
     /// Stiffness times the length of all paths, and what acts at touch: what forces are measured against [N].
@@ -76,13 +80,14 @@ impl<N: NormalLaw> Bench<N> {
             // Around the law's own scale, where that is a possible overlap; smaller where not.
             scale.min(0.3 * pair.harmonic_radius()) * draw.log_between(0.1, 3.0)
         };
-        let max_stiffness = law.max_stiffness(&pair, &loaded_to(1.3 * span, &pair));
+        let loading = loaded_to(1.3 * span, &pair);
+        let max_stiffness = law.max_stiffness(&pair, &loading);
         assert!(
             max_stiffness > 0.0 && max_stiffness.is_finite(),
             "{law:?}: the steepest slope is {max_stiffness}"
         );
         let force = max_stiffness * (span + range) + touches.force.abs();
-        Self { law, pair, range, span, max_stiffness, force }
+        Self { law, pair, range, span, loading, max_stiffness, force }
     }
 
     fn respond(&self, overlap: f64, memory: &mut N::Memory<f64>) -> NormalResponse {

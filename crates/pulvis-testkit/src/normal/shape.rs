@@ -10,15 +10,20 @@ use crate::draw::Draw;
 const POINTS: u32 = 600;
 
 impl<N: NormalLaw> Bench<N> {
-    /// From where on the slope is bounded: where a contact breaks with a jump, the slope may grow without bound shortly
-    /// before.
-    fn shape_begins(&self) -> f64 {
-        if !N::JUMPS { -self.range } else { -0.8 * self.range }
-    }
-
-    /// The step between points of the force's shape, up to 1.3 times the largest overlap.
-    fn shape_step(&self) -> f64 {
-        (1.3 * self.span - self.shape_begins()) / f64::from(POINTS)
+    /// Points of the force's shape with the past of `memory` [m]: up to 1.3 times the largest overlap, from where on the
+    /// slope is bounded. Where a contact breaks with a jump, the slope may grow without bound shortly before.
+    fn shape(&self, memory: &N::Memory<f64>) -> (f64, f64) {
+        let (mut begins, ends) = (-self.range, 1.3 * self.span);
+        if N::JUMPS {
+            let acts = |overlap: f64| self.respond(overlap, &mut memory.clone()).in_contact;
+            let (mut apart, mut acting) = (begins, ends);
+            for _ in 0..60 {
+                let middle = 0.5 * (apart + acting);
+                if acts(middle) { acting = middle } else { apart = middle }
+            }
+            begins = acting + 0.2 * self.range;
+        }
+        (begins, (ends - begins) / f64::from(POINTS))
     }
 }
 
@@ -27,10 +32,10 @@ pub(super) fn the_force_is_continuous_and_no_steeper_than_max_stiffness<N: Norma
     draw: &mut Draw,
 ) {
     let (memory, _) = bench.with_a_past(draw);
-    let step = bench.shape_step();
+    let (begins, step) = bench.shape(&memory);
     let mut before: Option<(f64, u8)> = None;
     for point in 0..=POINTS {
-        let overlap = bench.shape_begins() + step * f64::from(point);
+        let overlap = begins + step * f64::from(point);
         let mut after = memory;
         let answer = bench.respond(overlap, &mut after);
         let branch = bench.law.branch(&bench.pair, overlap, &after).0;
@@ -51,9 +56,9 @@ pub(super) fn the_force_is_continuous_and_no_steeper_than_max_stiffness<N: Norma
 
 pub(super) fn a_branch_has_one_name_and_no_kink<N: NormalLaw>(bench: &Bench<N>, draw: &mut Draw) {
     let (memory, _) = bench.with_a_past(draw);
-    let step = bench.shape_step();
+    let (begins, step) = bench.shape(&memory);
     let at = |point: u32| {
-        let overlap = bench.shape_begins() + step * f64::from(point);
+        let overlap = begins + step * f64::from(point);
         let mut after = memory;
         let answer = bench.respond(overlap, &mut after);
         let branches = [&memory, &after].map(|memory| bench.law.branch(&bench.pair, overlap, memory));
@@ -75,7 +80,7 @@ pub(super) fn a_branch_has_one_name_and_no_kink<N: NormalLaw>(bench: &Bench<N>, 
         // would show.
         let allowed = 0.1 * bench.max_stiffness * step;
         if same && bend > allowed {
-            let middle = bench.shape_begins() + step * f64::from(index as u32 + 1);
+            let middle = begins + step * f64::from(index as u32 + 1);
             let refined = largest_bend(bench, &memory, middle, step);
             let allowed = allowed / f64::from(REFINED);
             assert!(refined <= allowed, "{:?}: a kink inside branch {:?}", bench.law, three[1].1[0]);
