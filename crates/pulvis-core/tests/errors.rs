@@ -54,6 +54,19 @@ fn a_single_particle_of_its_material_needs_no_model_for_a_contact_with_its_like(
 }
 
 #[test]
+fn a_background_and_a_wall_motion_that_cannot_be_are_refused_and_nothing_changes() {
+    let mut simulation = Simulation::new(Setup { walls: vec![floor()], ..one() }).unwrap();
+    let error = simulation.set_background(Background { drag: -1.0, ..Background::default() }).unwrap_err();
+    assert!(matches!(error, SetupError::Background { found: -1.0, .. }), "{error}");
+    let lost = Velocity { velocity: vector(f64::NAN, 0.0, 0.0), ..Velocity::default() };
+    let error = simulation.set_wall_motion(0, WallMotion::Velocity(lost)).unwrap_err();
+    assert!(matches!(error, SetupError::Wall { index: 0, found, .. } if found.is_nan()), "{error}");
+    assert_eq!(simulation.walls()[0].motion, WallMotion::Fixed);
+    advance(&mut simulation, 10);
+    assert!(simulation.particles().positions()[0].z.is_finite());
+}
+
+#[test]
 fn new_models_that_leave_a_pair_without_one_are_refused_and_the_old_ones_stay() {
     let second = sphere(vector(5.0 * RADIUS, RADIUS, RADIUS), Vector3::zero(), RADIUS);
     let particles = vec![one().particles[0], second];

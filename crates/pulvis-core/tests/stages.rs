@@ -69,7 +69,7 @@ fn every_switch_leaves_the_closing_error_as_it_was() {
     });
     check_switch("gravity sideways, and drag", |simulation| {
         let gravity = vector(3.0, 9.0, 0.0);
-        simulation.set_background(Background { gravity, drag: 1e-5, rotational_drag: 1e-5 });
+        simulation.set_background(Background { gravity, drag: 1e-5, rotational_drag: 1e-5 }).unwrap();
     });
     check_switch("a wall gone", |simulation| simulation.set_wall_present(4, false));
     check_switch("a wall that starts to move", |simulation| {

@@ -144,7 +144,7 @@ fn what_has_lost_and_won_particles_and_been_switched_goes_on_from_any_step() {
     let id = simulation.insert_with(&[guest], &[NamedColumn { values: vec![7.0], ..charge }]).unwrap();
     simulation.set_wall_present(3, false);
     simulation.set_time_step(0.7 * simulation.time_step()).unwrap();
-    simulation.set_background(gravity(5.0));
+    simulation.set_background(gravity(5.0)).unwrap();
     simulation.set_skin(0.2 * RADIUS).unwrap();
     assert_goes_on_from_any_step("changed", &bed, simulation.clone(), [41, 60, 101, 33]);
     let mut restored = import(&bed, &simulation.export_state()).unwrap();

@@ -159,6 +159,16 @@ fn particles_that_are_too_fast_for_the_time_step_are_refused() {
 }
 
 #[test]
+fn a_drum_whose_surface_goes_round_too_fast_is_refused() {
+    let text = include_str!("../../../experiments/drum/short.toml");
+    let fast = text.replace("angular_velocity = \"4 rad/s\"", "angular_velocity = \"-4e5 rad/s\"");
+    let message = refused(&scenario(&fast));
+    let found =
+        "stages[1].walls.drum.angular_velocity: the surface of the wall drum goes round at 5.6000e3 m/s, ";
+    assert!(message.contains(found), "{message}");
+}
+
+#[test]
 fn walls_that_are_driven_through_each_other_are_refused() {
     for motion in [
         r#"{ control = "velocity", velocity = ["0 m/s", "0 m/s", "-1 m/s"] }"#,

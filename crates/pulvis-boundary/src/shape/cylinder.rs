@@ -87,6 +87,10 @@ impl Shape for Cylinder {
         Some(self.axis)
     }
 
+    fn distance_from_axis(&self) -> f64 {
+        self.radius
+    }
+
     fn is_invariant_along(&self, direction: Vector3) -> bool {
         direction.tangential_to(self.axis).norm() <= UNIT
     }

@@ -45,6 +45,11 @@ pub trait Shape: Copy {
     /// The axis of symmetry about which the wall can rotate, through the reference point.
     fn axis(&self) -> Option<Vector3>;
 
+    /// The largest distance of the surface from that axis [m]; zero where there is none.
+    fn distance_from_axis(&self) -> f64 {
+        0.0
+    }
+
     /// Whether the wall is the same after a shift along `direction`, a unit vector: space can be periodic there.
     fn is_invariant_along(&self, direction: Vector3) -> bool;
 
@@ -96,6 +101,9 @@ macro_rules! wall_shapes {
             }
             fn axis(&self) -> Option<Vector3> {
                 match self { $(Self::$shape(shape) => shape.axis(),)* }
+            }
+            fn distance_from_axis(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.distance_from_axis(),)* }
             }
             fn is_invariant_along(&self, direction: Vector3) -> bool {
                 match self { $(Self::$shape(shape) => shape.is_invariant_along(direction),)* }

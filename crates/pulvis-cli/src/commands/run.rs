@@ -1,5 +1,6 @@
 //! `pulvis run`: the stages of a scenario.
 
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -42,6 +43,12 @@ pub struct Arguments {
     quiet: bool,
 }
 
+/// Tells a warning on the standard error stream.
+fn warn(text: &str) {
+    // Nobody is left to be told if the stream is closed.
+    let _ = writeln!(std::io::stderr(), "warning: {text}");
+}
+
 /// An instruction set by its name.
 fn instruction_set(name: &str) -> Result<InstructionSet, String> {
     let available =
@@ -62,6 +69,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         threads: arguments.threads.map(usize::from),
         instructions: arguments.instructions,
         version: env!("CARGO_PKG_VERSION").to_owned(),
+        warn,
     };
     let mut line = ProgressLine::new(arguments.quiet);
     let result = run(&scenario, &options, &stop, &mut |progress| line.show(progress));

@@ -187,7 +187,7 @@ impl ContactTable {
 
     /// The largest k/m_r of all contacts whose law does not bound its stiffness in the last pass [1/s²].
     pub(crate) fn highest_rate_squared(&self) -> f64 {
-        self.groups().map(|group| group.rate_squared).fold(0.0, f64::max)
+        self.groups().map(|group| group.rate_squared).fold(0.0, max_or_nan)
     }
 
     /// The sum of all contacts' energies, group by group: the same for any number of threads.

@@ -81,6 +81,16 @@ pub(super) fn check_background(background: &Background) -> Result<(), SetupError
         .map_err(|Refused { quantity, found, expected }| SetupError::Background { quantity, found, expected })
 }
 
+/// Refuses a motion that no wall can have; `index` is that of the wall.
+pub(super) fn check_wall_motion(index: usize, motion: WallMotion) -> Result<(), SetupError> {
+    check_motion(motion).map_err(|Refused { quantity, found, expected }| SetupError::Wall {
+        index,
+        quantity,
+        found,
+        expected,
+    })
+}
+
 /// The shape checks itself, against the largest particle.
 fn check_wall(wall: &Wall) -> Check {
     finite_vector("point [m]", wall.point)?;

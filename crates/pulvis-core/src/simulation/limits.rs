@@ -171,7 +171,9 @@ impl Simulation {
     pub(super) fn check_stiffness(&self) -> Result<(), StepError> {
         let frequency = self.contacts.highest_rate_squared().sqrt();
         let (steps, least) = (PI / (frequency * self.time_step), self.limits.steps_per_contact);
-        if steps < least { Err(self.alarm(Alarm::TooStiff { steps, least })) } else { Ok(()) }
+        // Not `<`: NaN resolves nothing.
+        let resolved = steps >= least;
+        if resolved { Ok(()) } else { Err(self.alarm(Alarm::TooStiff { steps, least })) }
     }
 
     /// Whether the energies are numbers and balance.

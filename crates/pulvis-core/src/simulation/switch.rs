@@ -2,6 +2,7 @@
 
 use pulvis_math::InstructionSet;
 
+use super::checks::{check_background, check_wall_motion};
 use super::{SetupError, Simulation};
 use crate::contacts::Interactions;
 use crate::phases::Phases;
@@ -57,11 +58,16 @@ impl Simulation {
     }
 
     /// Sets another gravity and drag.
-    pub fn set_background(&mut self, background: Background) {
+    ///
+    /// # Errors
+    /// A number is not finite, or a drag is negative.
+    pub fn set_background(&mut self, background: Background) -> Result<(), SetupError> {
+        check_background(&background)?;
         self.switch(|simulation| {
             simulation.background = background;
             simulation.running.gravity_wrapped = 0.0;
         });
+        Ok(())
     }
 
     /// Sets another time step [s].
@@ -76,8 +82,9 @@ impl Simulation {
     /// Sets another motion of a wall.
     ///
     /// # Errors
-    /// A wall of this shape cannot have this motion.
+    /// A wall of this shape cannot have this motion, or no wall can.
     pub fn set_wall_motion(&mut self, index: usize, motion: WallMotion) -> Result<(), SetupError> {
+        check_wall_motion(index, motion)?;
         self.check_motion(index, &motion)?;
         // Dashpots see the wall's new velocity at once.
         self.switch(|simulation| {

@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use pulvis_boundary::Shape;
 use pulvis_core::walls::{FaceArea, Wall, WallMotion};
 use pulvis_core::{Limits, Particle, TouchingAtOnce};
 use pulvis_input::Problem;
@@ -27,7 +28,7 @@ pub(super) fn check_feasible(
     for (number, (stage, plan)) in scenario.stages.iter().zip(plans).enumerate() {
         for (place, control) in &stage.controls {
             let Some(motion) = control.motion() else { continue };
-            course.check_wall_speed(number, *place, &motion, plan.time_step)?;
+            course.check_wall_speed(number, *place, (&motion, &walls[*place].wall), plan.time_step)?;
             if let Some(pressure) = highest_pressure(&motion, &stage.until) {
                 course.check_pressure(number, *place, pressure, particles, plan, &walls[*place].wall)?;
             }
@@ -132,18 +133,22 @@ impl Course<'_> {
         &self,
         stage: usize,
         place: usize,
-        motion: &WallMotion,
+        (motion, wall): (&WallMotion, &Wall),
         time_step: f64,
     ) -> Result<(), PrepareError> {
-        let speed = motion.law().highest_speed();
-        let what = format!("the wall {} moves at", self.scenario.walls[place].name);
-        match self.too_fast(what, speed, time_step) {
-            None => Ok(()),
-            Some(problem) => {
+        let (motion, name) = (motion.law(), &self.scenario.walls[place].name);
+        let around = motion.angular_velocity().abs() * wall.shape.distance_from_axis();
+        let ways = [
+            ("velocity", format!("the wall {name} moves at"), motion.highest_speed()),
+            ("angular_velocity", format!("the surface of the wall {name} goes round at"), around),
+        ];
+        for (key, what, speed) in ways {
+            if let Some(problem) = self.too_fast(what, speed, time_step) {
                 let help = "lower the speed, or shorten the step, for example by more `steps_per_contact_time` in [time]";
-                Err(self.refuse(stage, place, "velocity", problem, help))
+                return Err(self.refuse(stage, place, key, problem, help));
             }
         }
+        Ok(())
     }
 
     /// Refuses a pressure that even a face full of the smallest particles carries only pressed in by more than the

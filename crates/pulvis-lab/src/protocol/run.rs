@@ -18,6 +18,7 @@ use super::report::{self, Series};
 use super::setup::{Prepared, StagePlan, prepare};
 use super::snapshots::Snapshots;
 use super::stage::{Ending, StageWatch, length};
+use super::warnings::warnings;
 
 /// Where a run writes, and how.
 #[derive(Clone, Debug)]
@@ -33,6 +34,8 @@ pub struct RunOptions {
     pub instructions: Option<InstructionSet>,
     /// Version of the program, for the record.
     pub version: String,
+    /// Told what is valid and yet probably not meant, before the first step.
+    pub warn: fn(&str),
 }
 
 /// How far a run has come.
@@ -110,6 +113,9 @@ pub fn run(
     watch: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<RunSummary, RunError> {
     let prepared = prepare(scenario)?;
+    for warning in warnings(scenario, &prepared) {
+        (options.warn)(&warning);
+    }
     let folder = options.folder.clone().unwrap_or_else(|| scenario.output.folder.clone());
     let mut output = OutputFolder::open(&folder, options.force)?;
     let resolved = scenario.to_resolved_toml(&options.version);
@@ -274,7 +280,7 @@ impl<'a> Run<'a> {
                 simulation.set_interactions(plan.interactions.clone()).map_err(failed)?;
             }
             if before.background != plan.background {
-                simulation.set_background(plan.background);
+                simulation.set_background(plan.background).map_err(failed)?;
             }
             if before.time_step.to_bits() != plan.time_step.to_bits() {
                 simulation.set_time_step(plan.time_step).map_err(failed)?;

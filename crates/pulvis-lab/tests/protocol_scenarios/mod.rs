@@ -35,6 +35,7 @@ pub fn options(folder: &Path) -> RunOptions {
         threads: Some(1),
         instructions: None,
         version: "test".to_owned(),
+        warn: |_| {},
     }
 }
 

@@ -7,7 +7,7 @@ mod walls;
 
 use std::ops::Range;
 
-use pulvis_math::{InstructionSet, Packed4, Simd8};
+use pulvis_math::{InstructionSet, Packed4, Simd8, max_or_nan};
 
 use self::batch::{BlockSums, Response};
 use self::normal::Wants;
@@ -119,8 +119,7 @@ fn finish<R: Simd8>(group: &mut ContactGroup, totals: &BlockSums<R>) {
     group.energies = totals.energies.to_array();
     group.totals = totals.totals.to_array();
     let rates = totals.rate_squared.to_array();
-    // A NaN among the stiffnesses shows in the energies and forces.
-    group.rate_squared = rates.0.iter().copied().fold(0.0, f64::max);
+    group.rate_squared = rates.0.iter().copied().fold(0.0, max_or_nan);
 }
 
 /// The inputs of a loop over a group.
