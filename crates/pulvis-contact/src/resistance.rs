@@ -2,6 +2,7 @@
 
 use pulvis_math::{Mask, Real, Vector3};
 
+use crate::catalogue::Role;
 use crate::conventions::{Conventions, LeverArm, RollingLever};
 use crate::energy::ContactEnergies;
 use crate::friction::{
@@ -114,7 +115,8 @@ impl<'a, R: Real> Resistance<'a, R> {
         }
         let surface_mid = motion.angular_velocity_i_mid * mid_i + motion.angular_velocity_j_mid * mid_j;
         let velocity_mid = self.sideways_mid + self.normal_mid.cross(surface_mid);
-        let stretch = Stretch { step: self, velocity, velocity_mid, lever: R::one(), start, columns };
+        let stretch =
+            Stretch::<R, C, false> { step: self, velocity, velocity_mid, lever: R::one(), start, columns };
         let Some(answer) = ask(law, N::COMMON, stretch) else { return };
         let moment = answer.force.cross(normal);
         response.force += answer.force;
@@ -144,7 +146,7 @@ impl<'a, R: Real> Resistance<'a, R> {
         }
         let rolling_mid = motion.angular_velocity_i_mid - motion.angular_velocity_j_mid;
         let velocity_mid = self.normal_mid.cross(rolling_mid) * -lever_mid;
-        let stretch = Stretch { step: self, velocity, velocity_mid, lever, start, columns };
+        let stretch = Stretch::<R, C, true> { step: self, velocity, velocity_mid, lever, start, columns };
         let Some(answer) = ask(law, N::COMMON.and(Some(ROTATION)), stretch) else { return };
         let energies = &mut response.energies;
         energies.elastic_rolling = answer.stored_energy;
@@ -275,7 +277,7 @@ const ROTATION: CommonFriction = CommonFriction::SpringSlider;
 fn ask<V: FrictionVisitor>(law: &Friction, common: Option<CommonFriction>, visitor: V) -> Option<V::Output> {
     match common {
         Some(common) => law.accept_common(common, visitor),
-        None => Some(law.accept(visitor)),
+        None => law.accept_in_role(visitor),
     }
 }
 
@@ -288,7 +290,7 @@ fn turn<R: Real>(torque: Vector3<R>, viscous_power: R, response: &mut ContactRes
 }
 
 /// A spring of the tangent plane on its way through a step.
-struct Stretch<'a, R: Real, C: ?Sized> {
+struct Stretch<'a, R: Real, C: ?Sized, const ROLLS: bool> {
     step: &'a Resistance<'a, R>,
     velocity: Vector3<R>,
     velocity_mid: Vector3<R>,
@@ -297,7 +299,8 @@ struct Stretch<'a, R: Real, C: ?Sized> {
     columns: &'a mut C,
 }
 
-impl<R: Real, C: Columns<R> + ?Sized> FrictionVisitor for Stretch<'_, R, C> {
+impl<R: Real, C: Columns<R> + ?Sized, const ROLLS: bool> FrictionVisitor for Stretch<'_, R, C, ROLLS> {
+    const ROLE: Option<Role> = Some(if ROLLS { Role::Rolling } else { Role::Sliding });
     type Output = FrictionResponse<Vector3<R>, R>;
 
     /// Carries the spring along and advances it. What it loses on the way by convention (`project`, `rate`) is booked
@@ -339,6 +342,7 @@ struct Twist<'a, R: Real, C: ?Sized> {
 }
 
 impl<R: Real, C: Columns<R> + ?Sized> FrictionVisitor for Twist<'_, R, C> {
+    const ROLE: Option<Role> = Some(Role::Torsion);
     type Output = FrictionResponse<Along<R>, R>;
 
     #[inline(always)]

@@ -54,6 +54,8 @@ pub(super) fn build(_role: Role, values: &Values) -> Result<ConstantTorque, Inva
 }
 
 impl FrictionLaw for ConstantTorque {
+    const ONLY: Option<Role> = Some(Role::Rolling);
+
     type Scalars<R: Real> = ();
 
     #[inline(always)]

@@ -87,6 +87,8 @@ impl ElasticPlastic {
 }
 
 impl FrictionLaw for ElasticPlastic {
+    const ONLY: Option<Role> = Some(Role::Rolling);
+
     /// The energy that holds the rolling force [J].
     type Scalars<R: Real> = [R; 1];
 

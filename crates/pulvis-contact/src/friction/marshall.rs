@@ -76,6 +76,8 @@ pub(super) fn build(_role: Role, values: &Values) -> Result<Marshall, InvalidPar
 }
 
 impl FrictionLaw for Marshall {
+    const ONLY: Option<Role> = Some(Role::Torsion);
+
     /// The energy that holds the moment [J].
     type Scalars<R: Real> = [R; 1];
 

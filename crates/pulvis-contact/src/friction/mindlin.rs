@@ -113,6 +113,8 @@ pub(super) fn build(_role: Role, values: &Values) -> Result<Mindlin, InvalidPara
 }
 
 impl FrictionLaw for Mindlin {
+    const ONLY: Option<Role> = Some(Role::Sliding);
+
     /// The energy that the tangential force stores [J].
     type Scalars<R: Real> = [R; 1];
 

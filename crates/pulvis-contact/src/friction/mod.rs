@@ -106,6 +106,9 @@ pub trait FrictionLaw: Copy {
     /// The greatest stiffness [N/m] of contacts up to this scale.
     fn max_stiffness(&self, scale: &ContactScale) -> f64;
 
+    /// The one role that the law can play; all of them where `None`.
+    const ONLY: Option<Role> = None;
+
     /// Whether the law asks for the radius of the contact area, or for the force that pulls the bodies apart.
     const NEEDS_CONTACT_RADIUS: bool = false;
 
@@ -137,10 +140,20 @@ pub enum CommonFriction {
 
 /// Something to be done with a friction law whose type is only known at run time.
 pub trait FrictionVisitor {
+    /// The role that the law plays there, if it matters: code is made only for the laws that can play it.
+    const ROLE: Option<Role> = None;
     /// What comes of it.
     type Output;
     /// Does it.
     fn visit<F: FrictionLaw>(self, law: &F) -> Self::Output;
+}
+
+/// Whether a law that plays `only` one role can play another.
+const fn can_play(only: Option<Role>, role: Option<Role>) -> bool {
+    match (only, role) {
+        (Some(only), Some(role)) => only as u8 == role as u8,
+        _ => true,
+    }
 }
 
 macro_rules! friction_laws {
@@ -170,6 +183,18 @@ macro_rules! friction_laws {
                 match self {
                     Self::$common(law) => visitor.visit(law),
                     $(Self::$law(law) => visitor.visit(law),)*
+                }
+            }
+
+            /// Hands the law to the visitor if it can play the visitor's [`ROLE`](FrictionVisitor::ROLE).
+            #[inline(always)]
+            pub(crate) fn accept_in_role<V: FrictionVisitor>(&self, visitor: V) -> Option<V::Output> {
+                match self {
+                    Self::$common(law) => Some(visitor.visit(law)),
+                    $(Self::$law(law) if const { can_play(<$law as FrictionLaw>::ONLY, V::ROLE) } => {
+                        Some(visitor.visit(law))
+                    })*
+                    _ => None,
                 }
             }
 

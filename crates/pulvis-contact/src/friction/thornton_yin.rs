@@ -198,6 +198,8 @@ impl<R: Real> Spring<R> for Neck<R> {
 }
 
 impl FrictionLaw for ThorntonYin {
+    const ONLY: Option<Role> = Some(Role::Sliding);
+
     type Scalars<R: Real> = PeelMemory<R>;
 
     #[inline(always)]

@@ -205,6 +205,8 @@ fn grown(trial: f64, left: f64, range: f64, exponent: f64) -> f64 {
 }
 
 impl FrictionLaw for Walton {
+    const ONLY: Option<Role> = Some(Role::Sliding);
+
     /// The share of the limit at which the motion turned last, along the force; zero for the passive rule.
     type Scalars<R: Real> = [R; 1];
 
