@@ -1,9 +1,10 @@
 //! `cargo xtask ci`: everything that must hold before a change is merged, cheapest first.
 
+use std::process::Command;
 use std::time::Instant;
 
 use crate::Outcome;
-use crate::process::{cargo, run};
+use crate::process::{cargo, pulvis, run};
 use crate::{book, check_docs, experiments, scenarios, tests, threads};
 
 /// A step, by its name.
@@ -12,7 +13,7 @@ type Step = (&'static str, fn() -> Outcome);
 /// Everything, in one profile, so that tests, binary and tasks share their builds. A step that fails does not hide the
 /// findings of the next ones.
 pub fn run_all() -> Outcome {
-    let steps: [Step; 9] = [
+    let steps: [Step; 10] = [
         ("formatting", || run(&mut cargo(&["fmt", "--all", "--check"]))),
         ("documents", check_docs::run),
         ("table of laws", book::check),
@@ -20,6 +21,7 @@ pub fn run_all() -> Outcome {
         ("API documentation", documentation),
         ("tests", tests::run_all),
         ("threads", threads::loom),
+        ("values of the laws", verification),
         ("scenarios", scenarios::run),
         ("experiments", || experiments::run(None)),
     ];
@@ -48,4 +50,8 @@ fn lints() -> Outcome {
 fn documentation() -> Outcome {
     let mut command = cargo(&["doc", "--quiet", "--workspace", "--no-deps"]);
     run(command.env("RUSTDOCFLAGS", "-D warnings"))
+}
+
+fn verification() -> Outcome {
+    run(Command::new(pulvis()?).arg("verify"))
 }

@@ -1,9 +1,10 @@
 //! Level 4 of the house: experiments.
 //!
-//! [`protocol`]: a scenario's stages, run one after another. [`collision`]: two bodies, one contact, to round-off or with
+//! [`verification`]: contact laws against values that are not theirs. [`protocol`]: a scenario's stages, run one after another. [`collision`]: two bodies, one contact, to round-off or with
 //! the engine's time step. [`probe`]: one contact on a prescribed path.
 
 mod branch;
 pub mod collision;
 pub mod probe;
 pub mod protocol;
+pub mod verification;

@@ -8,6 +8,7 @@ mod probe;
 mod progress;
 mod run;
 mod set;
+mod verify;
 mod words;
 
 use std::process::ExitCode;
@@ -29,6 +30,8 @@ pub enum Command {
     Probe(probe::Arguments),
     /// Lists the contact laws, or describes one in full
     Laws(laws::Arguments),
+    /// Checks contact laws against closed forms, published numbers and values of another program
+    Verify(verify::Arguments),
 }
 
 impl Command {
@@ -40,6 +43,7 @@ impl Command {
             Self::Collide(arguments) => collide::execute(arguments),
             Self::Probe(arguments) => probe::execute(arguments),
             Self::Laws(arguments) => laws::execute(arguments),
+            Self::Verify(arguments) => verify::execute(arguments),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The relative motion of two bodies along the line of their centres.
 
 use pulvis_contact::{ContactKinematics, ContactModel, ContactResponse, MemoryLayout, NormalMotion, Pair};
+use pulvis_input::collision::Bodies;
 use pulvis_math::Vector3;
 
 use super::extrapolation::State;
@@ -44,6 +45,8 @@ pub(super) struct Dynamics {
     model: ContactModel,
     layout: MemoryLayout,
     pair: Pair,
+    /// Radii of the two bodies, of a wall zero [m].
+    radii: [f64; 2],
 }
 
 /// The branches of the normal law and of the attraction at a point.
@@ -64,11 +67,13 @@ impl Branches {
 }
 
 impl Dynamics {
-    /// The motion of the bodies of `pair` under the laws of `model` along the line of their centres.
-    pub fn new(model: &ContactModel, pair: Pair) -> Self {
+    /// The motion of two bodies under the laws of `model` along the line of their centres.
+    pub fn new(model: &ContactModel, bodies: &Bodies) -> Self {
         let mut model = *model;
+        let ((_, radius_i), second) = bodies.masses_and_radii();
+        let (pair, radii) = (bodies.pair(), [radius_i, second.map_or(0.0, |(_, radius)| radius)]);
         (model.laws.sliding, model.laws.rolling, model.laws.torsion) = (None, None, None);
-        Self { layout: model.memory_layout(), model, pair }
+        Self { layout: model.memory_layout(), model, pair, radii }
     }
 
     /// The record of a contact that never was.
@@ -93,8 +98,8 @@ impl Dynamics {
             overlap: Self::within(phase, motion[0]),
             inverse_distance: 0.0,
             normal_rate: None,
-            radius_i: 0.0,
-            radius_j: 0.0,
+            radius_i: self.radii[0],
+            radius_j: self.radii[1],
             velocity: along(-motion[1]),
             velocity_mid: along(-motion[1]),
             angular_velocity_i: zero,

@@ -278,6 +278,7 @@ impl Adhesive {
             was_in_contact: was_attached | (!recorded & motion.touched_before()),
             friction_reference: ninth * curve::friction_reference(cube) * stiffer_cap,
             contact_radius,
+            pull_off_force: number(9.0) * ninth * stiffer_cap,
             adhesive_potential: surface,
             dissipated_plastic: energy * lost,
             dissipated_adhesive: adhesive,
