@@ -46,7 +46,7 @@ fn viscous_laws_keep_their_promises() {
 
 #[test]
 fn friction_laws_give_no_work_back() {
-    testkit::friction::check_all(1000);
+    testkit::friction::check_all(10_000);
 }
 
 #[test]
