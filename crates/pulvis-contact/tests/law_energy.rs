@@ -42,8 +42,9 @@ fn closes_at_its_order(model: &ContactModel, dance: &Dance) {
             .into_iter()
             .flatten()
             .any(|law| law.dashpot() != 0.0 && !matches!(law, Friction::SpringSlider(_)));
-    // Bodies that detach and attach anew while they overlap: in the step of the event the books are half-way.
-    let snaps = matches!(model.normal, Normal::Pasha(_) | Normal::ThorntonNing(_));
+    // Bodies that detach and attach anew while they overlap: in the step of the event the books are half-way. And an
+    // attraction over less than a step.
+    let snaps = matches!(model.normal, Normal::Pasha(_) | Normal::ThorntonNing(_) | Normal::Tomas(_));
     if snaps || in_series && laws.has_resistance_dashpot() {
         // The books of a dashpot in series with a slider run ahead by half a step of what it loses by slip: first order,
         // with the same margin of 4.

@@ -26,6 +26,7 @@ mod molerus;
 mod pasha;
 mod response;
 mod thornton_ning;
+mod tomas;
 mod viscoelastic_jkr;
 mod walton_braun;
 mod walton_braun_variable;
@@ -44,6 +45,7 @@ pub use molerus::{Molerus, MolerusMemory};
 pub use pasha::{Pasha, PashaMemory};
 pub use response::NormalResponse;
 pub use thornton_ning::{ThorntonNing, ThorntonNingMemory};
+pub use tomas::{Tomas, TomasMemory};
 pub use viscoelastic_jkr::{ViscoelasticJkr, ViscoelasticJkrMemory};
 pub use walton_braun::WaltonBraun;
 pub use walton_braun_variable::WaltonBraunVariable;
@@ -289,7 +291,7 @@ macro_rules! normal_laws {
 normal_laws![
     common: Hertz, Linear, Luding;
     others:
-        Dahneke, Dmt, Eepa, Jkr, Kempton, LeeRadok, Molerus, Pasha, ThorntonNing, ViscoelasticJkr,
+        Dahneke, Dmt, Eepa, Jkr, Kempton, LeeRadok, Molerus, Pasha, ThorntonNing, Tomas, ViscoelasticJkr,
         WaltonBraun, WaltonBraunVariable, WaltonJohnson
 ];
 

@@ -73,7 +73,9 @@ impl<N: NormalLaw> Bench<N> {
         assert!(scale > 0.0 && scale.is_finite(), "{law:?}: the overlap scale is {scale}");
         let range = law.interaction_range(&pair);
         assert!(range >= 0.0 && range.is_finite(), "{law:?}: acts at a distance of {range} m");
-        let span = if range > 0.0 {
+        // Laws with a scale of their own are looked at there as often as near the end of their range.
+        let own_scale = scale < 0.99 * pair.harmonic_radius();
+        let span = if range > 0.0 && !(own_scale && draw.chance(0.5)) {
             // Deep enough to leave the attraction behind, not so deep that it is lost in a step.
             range * draw.log_between(0.3, 30.0)
         } else {
