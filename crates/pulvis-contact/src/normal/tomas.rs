@@ -140,7 +140,7 @@ impl NormalLaw for Tomas {
         let (mut top, mut pull_off) = (before.yield_overlap, before.pull_off_overlap);
         let (mut plastic, mut jump) = (zero, zero);
         if flows.any() {
-            let contact = flow::Contact { radius, permanent, vdw, begins };
+            let contact = flow::Contact { radius, permanent, begins };
             let found = self.flow.to(&contact, overlap, &before, self.distance, self.cutoff);
             top = R::select(flows, overlap, top);
             pull_off = R::select(flows, found.pull_off_overlap, pull_off);
@@ -159,7 +159,7 @@ impl NormalLaw for Tomas {
         let reloaded = before.reloaded.max(pressed).min(height);
         let reloaded = R::select(flows, height, reloaded).keep_where(flowed & pressed.gt(zero));
         let mut factor = one;
-        let partial = flowed & pressed.gt(zero) & reloaded.lt(height);
+        let partial = flowed & !flows & pressed.gt(zero) & before.reloaded.lt(height);
         if partial.any() {
             let share = R::select(partial, reloaded / height, one);
             factor = stiffening(share);

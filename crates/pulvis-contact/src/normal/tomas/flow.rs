@@ -30,8 +30,6 @@ pub(super) struct Contact<R> {
     pub(super) radius: R,
     /// F_H0 [N].
     pub(super) permanent: R,
-    /// π r p_vdw [N/m].
-    pub(super) vdw: R,
     /// h_f [m].
     pub(super) begins: R,
 }
@@ -47,9 +45,8 @@ pub(super) struct Flowed<R> {
 impl Flow {
     pub(super) fn new(
         modulus: f64,
-        yield_pressure: f64,
-        vdw_pressure: f64,
-        distance: f64,
+        [yield_pressure, vdw_pressure]: [f64; 2],
+        [distance, cutoff]: [f64; 2],
         jumps: bool,
     ) -> Self {
         let strain = PI * yield_pressure / modulus;
