@@ -21,7 +21,7 @@ impl<N: NormalLaw> Bench<N> {
                 let middle = 0.5 * (apart + acting);
                 if acts(middle) { acting = middle } else { apart = middle }
             }
-            begins = acting + 0.2 * self.range;
+            begins = acting + 0.2 * self.range.min(ends - acting);
         }
         (begins, (ends - begins) / f64::from(POINTS))
     }

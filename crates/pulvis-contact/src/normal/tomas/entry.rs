@@ -48,7 +48,8 @@ F = −F_H0 q² − π r p_vdw h_A q³           apart, q = a_0/(a_0 + h_A − h
                 "cutoff",
                 "s_c",
                 Dimension::LENGTH,
-                Range::Positive,
+                // Beyond, van der Waals forces are retarded, and nothing is left of them.
+                Range::Within(0.0, 1e-6),
                 "gap beyond which nothing acts, at least 10 a_0",
             )
             .or(1e-8),
