@@ -38,8 +38,13 @@ pub fn run() -> Outcome {
 
 /// Exit code, and what is printed.
 fn show(pulvis: &Path, path: &Path) -> Outcome<(Option<i32>, String)> {
-    let command =
-        if path.components().any(|part| part.as_os_str() == "collision") { "collide" } else { "check" };
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let in_collisions = path.components().any(|part| part.as_os_str() == "collision");
+    let command = match &*name {
+        name if in_collisions || name.starts_with("collision_") => "collide",
+        name if name.starts_with("probe_") => "probe",
+        _ => "check",
+    };
     let output = capture(Command::new(pulvis).arg(command).arg(path))?;
     let text = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
     Ok((output.status.code(), text))

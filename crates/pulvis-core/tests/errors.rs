@@ -58,7 +58,7 @@ fn a_background_and_a_wall_motion_that_cannot_be_are_refused_and_nothing_changes
     let mut simulation = Simulation::new(Setup { walls: vec![floor()], ..one() }).unwrap();
     let error = simulation.set_background(Background { drag: -1.0, ..Background::default() }).unwrap_err();
     assert!(matches!(error, SetupError::Background { found: -1.0, .. }), "{error}");
-    let lost = Velocity { velocity: vector(f64::NAN, 0.0, 0.0), ..Velocity::default() };
+    let lost = Velocity { velocity: vector(f64::NAN, 0.0, 0.0) };
     let error = simulation.set_wall_motion(0, WallMotion::Velocity(lost)).unwrap_err();
     assert!(matches!(error, SetupError::Wall { index: 0, found, .. } if found.is_nan()), "{error}");
     assert_eq!(simulation.walls()[0].motion, WallMotion::Fixed);
