@@ -1,5 +1,6 @@
 //! Contacts between particles.
 
+use pulvis_contact::friction::CommonFriction;
 use pulvis_contact::normal::{CommonLawVisitor, Inlined};
 use pulvis_contact::{NormalLaw, Pair, levels};
 use pulvis_math::{Kernel, Mask, Simd8};
@@ -24,6 +25,12 @@ pub(super) unsafe fn sweep(contacts: Loop<'_>) {
         let _ = normal.accept_common(CommonPairs(contacts));
         return;
     }
+    run_pointed(contacts);
+}
+
+/// Runs the loop that calls laws through pointers.
+fn run_pointed(contacts: Loop<'_>) {
+    let model = &contacts.group.model;
     let set = contacts.advance.instructions;
     match model.laws.resistance_level() {
         levels::NONE => set.run(PointedPairs::<{ levels::NONE }>(contacts)),
@@ -41,19 +48,34 @@ impl CommonLawVisitor for CommonPairs<'_> {
         let Self(contacts) = self;
         let (level, ledger) = (contacts.group.model.laws.resistance_level(), contacts.advance.ledger);
         let set = contacts.advance.instructions;
+        // Loops cost seconds of compilation each: laws with a law against sliding of their own have only those that most
+        // of their contacts take, and these keep the ledger or not at run time.
+        let ledger = ledger || !const { every_loop::<N>() };
         match (level, ledger) {
             (levels::NONE, true) => set.run(InlinedPairs::<N, { levels::NONE }, true> { law, contacts }),
-            (levels::NONE, false) => set.run(InlinedPairs::<N, { levels::NONE }, false> { law, contacts }),
+            (levels::NONE, false) if const { every_loop::<N>() } => {
+                set.run(InlinedPairs::<N, { levels::NONE }, false> { law, contacts });
+            }
             (levels::SLIDING, true) => {
                 set.run(InlinedPairs::<N, { levels::SLIDING }, true> { law, contacts });
             }
-            (levels::SLIDING, false) => {
+            (levels::SLIDING, false) if const { every_loop::<N>() } => {
                 set.run(InlinedPairs::<N, { levels::SLIDING }, false> { law, contacts });
             }
-            (_, true) => set.run(InlinedPairs::<N, { levels::ALL }, true> { law, contacts }),
-            (_, false) => set.run(InlinedPairs::<N, { levels::ALL }, false> { law, contacts }),
+            (_, true) if const { every_loop::<N>() } => {
+                set.run(InlinedPairs::<N, { levels::ALL }, true> { law, contacts });
+            }
+            (_, false) if const { every_loop::<N>() } => {
+                set.run(InlinedPairs::<N, { levels::ALL }, false> { law, contacts });
+            }
+            _ => run_pointed(contacts),
         }
     }
+}
+
+/// Whether a common law has loops for every level of resistance, with and without the ledger.
+const fn every_loop<N: NormalLaw>() -> bool {
+    matches!(N::COMMON_SLIDING, CommonFriction::SpringSlider)
 }
 
 struct InlinedPairs<'a, N, const RESISTANCE: u8, const LEDGER: bool> {
@@ -68,7 +90,8 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel
 
     #[inline(always)]
     fn run<R: Simd8>(self) {
-        let response = response(Inlined(self.law), self.contacts.group, self.contacts.advance, true);
+        let ledger = const { every_loop::<N>() } || self.contacts.advance.ledger;
+        let response = response(Inlined(self.law), self.contacts.group, self.contacts.advance, ledger);
         // SAFETY: as the caller of `sweep` vouches.
         unsafe { sweep_pairs::<R, _, RESISTANCE, LEDGER>(response, self.contacts) };
     }
