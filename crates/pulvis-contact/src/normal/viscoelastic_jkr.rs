@@ -95,7 +95,7 @@ published: everywhere; between pull-off and separation it creates energy",
                 "where the viscous force acts",
             ),
         ],
-        memory: &["cube_root_radius [m^(1/3)]", "force [N]", "viscous_force [N]"],
+        memory: &["cube_root_radius [m^(1/3)]", "previous_force [N]", "viscous_force [N]"],
         closed_form: "restitution from an integrated equation of motion (tests of the law); without A that of `jkr`",
         example: "law = \"viscoelastic-jkr\"\neffective_modulus = \"1e9 Pa\"\nwork_of_adhesion = \"0.05 N/m\"\ndissipative_time = \"5e-10 s\"",
     };
