@@ -77,3 +77,14 @@ fn equal_spheres_slide_and_roll_independently() {
     let together = time(spring(300.0), spring(70.0));
     assert_eq!(together, time(spring(300.0), None).min(time(None, spring(70.0))));
 }
+
+#[test]
+fn no_memory_column_has_the_name_of_what_files_say_of_every_contact() {
+    let taken = ["id1", "id2", "force", "normal_force", "overlap"];
+    for entry in Normal::ENTRIES {
+        for column in entry.memory {
+            let name = column.split(' ').next().unwrap();
+            assert!(!taken.contains(&name), "{}: {column}", entry.name);
+        }
+    }
+}
