@@ -99,7 +99,7 @@ impl<S> Sweep<'_, S> {
                 store_vector(torque_i, answer.torque_i);
                 store_vector(torque_j, answer.torque_j);
                 if ledger {
-                    energies.add_dissipated::<{ levels::ALL }>(&answer.energies, with_memory);
+                    energies.add_dissipated::<{ levels::ALL }>(&answer.energies, with_memory, true);
                 }
             }
         }

@@ -40,7 +40,7 @@ mod time_scales;
 pub mod viscosity;
 
 pub use conventions::Conventions;
-pub use energy::ContactEnergies;
+pub use energy::{AttractionAccount, ContactEnergies};
 pub use expected::ExpectedLoading;
 pub use friction::{ContactScale, Friction, Mindlin, SpringSlider};
 pub use kinematics::{ContactInputs, ContactKinematics, NormalMotion};

@@ -211,6 +211,7 @@ impl ContactLaws {
             adhesive_potential: elastic.adhesive_potential,
             dissipated_plastic: elastic.dissipated_plastic,
             dissipated_adhesive: elastic.dissipated_adhesive,
+            dissipated_thermal: elastic.dissipated_thermal,
             viscous_power: viscous * along.closing_rate,
             ..ContactEnergies::default()
         };
@@ -219,8 +220,7 @@ impl ContactLaws {
             let attraction = self.noncontact.respond(&along, columns, slots.attraction);
             normal_force += attraction.applied_force;
             attraction_force = attraction.force;
-            energies.adhesive_potential += attraction.potential;
-            energies.dissipated_adhesive += attraction.dissipated;
+            energies.attract(self.noncontact.account(), attraction.potential, attraction.dissipated);
         }
         let force = motion.normal * normal_force;
         let stiffness = elastic.stiffness;

@@ -26,12 +26,23 @@ pub struct Ledger {
     pub elastic_torsion: f64,
     /// Potential of attraction at a distance [J].
     pub adhesive: f64,
+    /// Potential of liquid bridges, zero where they break [J].
+    pub capillary: f64,
+    /// Potential of charges [J].
+    pub electrostatic: f64,
     /// Potential in the gravity field [J].
     pub gravity: f64,
     /// Dissipated by plastic deformation of contacts [J].
     pub dissipated_plastic: f64,
     /// Dissipated on adhesive limit branches and by attraction that sets in suddenly [J].
     pub dissipated_adhesive: f64,
+    /// Dissipated by liquid bridges, when they form: nobody does the work that it takes to break them [J].
+    pub dissipated_capillary: f64,
+    /// Dissipated by bonds that broke [J].
+    pub dissipated_fracture: f64,
+    /// Dissipated because parameters of contacts changed with time or temperature; work that such a change did on contacts
+    /// counts as negative [J].
+    pub dissipated_thermal: f64,
     /// Dissipated by dashpots of contacts [J].
     pub dissipated_viscous: f64,
     /// Dissipated by sliding [J].
@@ -69,15 +80,23 @@ impl Ledger {
         self.elastic_normal + self.elastic_sliding + self.elastic_rolling + self.elastic_torsion
     }
 
+    /// Potential of all attraction at a distance [J].
+    pub fn attraction(&self) -> f64 {
+        self.adhesive + self.capillary + self.electrostatic
+    }
+
     /// All stored energy [J].
     pub fn stored(&self) -> f64 {
-        self.kinetic() + self.kinetic_discretisation + self.elastic() + self.adhesive + self.gravity
+        self.kinetic() + self.kinetic_discretisation + self.elastic() + self.attraction() + self.gravity
     }
 
     /// All dissipated energy [J].
     pub fn dissipated(&self) -> f64 {
         self.dissipated_plastic
             + self.dissipated_adhesive
+            + self.dissipated_capillary
+            + self.dissipated_fracture
+            + self.dissipated_thermal
             + self.dissipated_viscous
             + self.dissipated_sliding
             + self.dissipated_rolling
@@ -102,7 +121,7 @@ impl Ledger {
     }
 
     /// The names of all accounts with their values [J], in the order of output tables.
-    pub fn accounts(&self) -> [(&'static str, f64); 21] {
+    pub fn accounts(&self) -> [(&'static str, f64); 26] {
         [
             ("kinetic_translation", self.kinetic_translation),
             ("kinetic_rotation", self.kinetic_rotation),
@@ -112,9 +131,14 @@ impl Ledger {
             ("elastic_rolling", self.elastic_rolling),
             ("elastic_torsion", self.elastic_torsion),
             ("adhesive", self.adhesive),
+            ("capillary", self.capillary),
+            ("electrostatic", self.electrostatic),
             ("gravity", self.gravity),
             ("dissipated_plastic", self.dissipated_plastic),
             ("dissipated_adhesive", self.dissipated_adhesive),
+            ("dissipated_capillary", self.dissipated_capillary),
+            ("dissipated_fracture", self.dissipated_fracture),
+            ("dissipated_thermal", self.dissipated_thermal),
             ("dissipated_viscous", self.dissipated_viscous),
             ("dissipated_sliding", self.dissipated_sliding),
             ("dissipated_rolling", self.dissipated_rolling),
@@ -154,14 +178,7 @@ impl Running {
 
     /// Sets dissipated energies to those `before` an insertion: what inserted contacts dissipated earlier is not booked.
     pub(crate) fn set_losses(&mut self, before: &ContactEnergies) {
-        self.contacts = ContactEnergies {
-            dissipated_plastic: before.dissipated_plastic,
-            dissipated_adhesive: before.dissipated_adhesive,
-            dissipated_sliding: before.dissipated_sliding,
-            dissipated_rolling: before.dissipated_rolling,
-            dissipated_torsion: before.dissipated_torsion,
-            ..self.contacts
-        };
+        self.contacts = self.contacts.with_dissipated_of(before);
     }
 
     /// Adds the energies of contacts and the power of the background at the end of a step. Powers are integrated by the
@@ -170,15 +187,7 @@ impl Running {
         self.viscous += 0.5 * time_step * (self.contacts.viscous_power + now.viscous_power);
         self.background += 0.5 * time_step * (self.background_power + background_power);
         self.background_power = background_power;
-        let lost = self.contacts;
-        self.contacts = ContactEnergies {
-            dissipated_plastic: lost.dissipated_plastic + now.dissipated_plastic,
-            dissipated_adhesive: lost.dissipated_adhesive + now.dissipated_adhesive,
-            dissipated_sliding: lost.dissipated_sliding + now.dissipated_sliding,
-            dissipated_rolling: lost.dissipated_rolling + now.dissipated_rolling,
-            dissipated_torsion: lost.dissipated_torsion + now.dissipated_torsion,
-            ..now
-        };
+        self.contacts = now.plus_dissipated_of(&self.contacts);
     }
 }
 
@@ -223,10 +232,27 @@ mod tests {
             elastic_torsion: 64.0,
             adhesive: 128.0,
             gravity: 256.0,
+            capillary: 512.0,
+            electrostatic: 1024.0,
             ..Ledger::default()
         };
         let listed: f64 = ledger.accounts().iter().map(|(_, value)| value).sum();
         assert_eq!(listed, ledger.stored());
-        assert_eq!(listed, 511.0);
+        assert_eq!(listed, 2047.0);
+        let ledger = Ledger {
+            dissipated_plastic: 1.0,
+            dissipated_adhesive: 2.0,
+            dissipated_capillary: 4.0,
+            dissipated_fracture: 8.0,
+            dissipated_thermal: 16.0,
+            dissipated_viscous: 32.0,
+            dissipated_sliding: 64.0,
+            dissipated_rolling: 128.0,
+            dissipated_torsion: 256.0,
+            dissipated_background: 512.0,
+            ..Ledger::default()
+        };
+        let listed: f64 = ledger.accounts().iter().map(|(_, value)| value).sum();
+        assert_eq!((listed, ledger.dissipated()), (1023.0, 1023.0));
     }
 }

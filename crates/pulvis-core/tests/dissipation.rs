@@ -5,7 +5,7 @@ mod common;
 
 use common::*;
 use pulvis_contact::conventions::SlipDashpot;
-use pulvis_contact::noncontact::JumpIn;
+use pulvis_contact::noncontact::{JumpIn, LiquidBridge};
 use pulvis_contact::theory::LinearSpringDashpot;
 use pulvis_contact::{ContactModel, Linear, NonContact};
 use pulvis_core::{Background, Ledger, Setup};
@@ -59,6 +59,40 @@ fn an_attraction_that_jumps_in_closes_the_ledger_at_first_order() {
     // Touches lie anywhere between two steps, and the force jumps there.
     assert!(errors[0] < 1e-3, "{errors:?}");
     assert!(order(&errors) > 0.75, "observed order {}: {errors:?}", order(&errors));
+}
+
+#[test]
+fn a_liquid_bridge_is_dissipated_when_it_forms_held_while_it_is_stretched_and_gone_when_it_breaks() {
+    // R = 1 mm, 2500 kg/m³, 1e-12 m³ of water: the work to rupture, and v_w = √(2 W/m_r).
+    let (rupture_work, wet_speed) = (1.014_100_887_288e-8, 0.062_238);
+    let (radius, speed) = (1e-3, 0.1);
+    let mut model = elastic();
+    model.laws.noncontact = NonContact::LiquidBridge(LiquidBridge::new(1e-12, 0.072, 0.0));
+    let one = sphere(vector(-1.0001 * radius, 0.0, 0.0), vector(0.5 * speed, 0.0, 0.0), radius);
+    let other = sphere(vector(1.0001 * radius, 0.0, 0.0), vector(-0.5 * speed, 0.0, 0.0), radius);
+    let mut pair = start(setup(vec![one, other], model), 200.0);
+    let kinetic = pair.ledger().kinetic();
+    let (mut deepest, mut stretched) = (0.0_f64, f64::NEG_INFINITY);
+    while pair.ledger().dissipated_capillary == 0.0 {
+        assert_eq!(pair.ledger().capillary, 0.0);
+        pair.step().unwrap();
+    }
+    while pair.ledger().capillary != 0.0 {
+        let ledger = pair.ledger();
+        assert!((ledger.dissipated_capillary / rupture_work - 1.0).abs() < 1e-10, "{ledger:?}");
+        assert!(ledger.relative_error().abs() < 2e-3, "{ledger:?}");
+        (deepest, stretched) = (deepest.min(ledger.capillary), stretched.max(ledger.capillary));
+        pair.step().unwrap();
+    }
+    advance(&mut pair, 2);
+    let ledger = pair.ledger();
+    // Deeper than at touch while pressed, almost nothing before it breaks.
+    assert!(deepest < -1.05 * rupture_work && stretched > -0.05 * rupture_work, "{deepest} {stretched}");
+    assert_eq!((ledger.adhesive, ledger.dissipated_adhesive), (0.0, 0.0));
+    let expected = 1.0 - (wet_speed / speed) * (wet_speed / speed);
+    // v_w is printed to five digits; the steps of the two jumps.
+    assert!((ledger.kinetic() / kinetic / expected - 1.0).abs() < 1e-3, "{ledger:?}");
+    assert!(ledger.relative_error().abs() < 1e-3, "{ledger:?}");
 }
 
 fn losses(ledger: &Ledger) -> [f64; 5] {

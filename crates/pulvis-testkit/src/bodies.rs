@@ -178,17 +178,8 @@ impl Couple {
                 (-answer.force * (1.0 / j.mass) + self.gravity, answer.torque_j * (1.0 / j.inertia()));
         }
         let energies = answer.energies;
-        self.stored = energies.elastic_normal
-            + energies.elastic_sliding
-            + energies.elastic_rolling
-            + energies.elastic_torsion
-            + energies.adhesive_potential;
-        self.lost += energies.dissipated_plastic
-            + energies.dissipated_adhesive
-            + energies.dissipated_sliding
-            + energies.dissipated_rolling
-            + energies.dissipated_torsion
-            + 0.5 * dt * (self.power + energies.viscous_power);
+        self.stored = energies.stored();
+        self.lost += energies.dissipated() + 0.5 * dt * (self.power + energies.viscous_power);
         self.power = energies.viscous_power;
         self.normal_force = answer.normal_force;
         self.overlap = motion.overlap;

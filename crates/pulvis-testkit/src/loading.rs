@@ -41,7 +41,7 @@ impl<N: NormalLaw> Loading<N> {
     /// Goes to an overlap [m] in one step.
     pub fn go(&mut self, overlap: f64) -> NormalResponse {
         let answer = self.law.respond(&NormalMotion::at_rest(&self.pair, overlap), &mut self.memory);
-        self.lost += answer.dissipated_plastic + answer.dissipated_adhesive;
+        self.lost += answer.dissipated_plastic + answer.dissipated_adhesive + answer.dissipated_thermal;
         answer
     }
 

@@ -257,12 +257,7 @@ impl ReferenceEngine {
         if columns.iter().any(|&column| column != 0.0) {
             self.memory.insert(bodies, (layout, columns));
         }
-        let e = answer.energies;
-        self.dissipated += e.dissipated_plastic
-            + e.dissipated_adhesive
-            + e.dissipated_sliding
-            + e.dissipated_rolling
-            + e.dissipated_torsion;
+        self.dissipated += answer.energies.dissipated();
         self.add(bodies.0, answer.force, answer.torque_i);
         if let Second::Sphere(second) = bodies.1 {
             self.add(second, -answer.force, answer.torque_j);

@@ -6,6 +6,7 @@ use pulvis_math::{Dimension, Mask, Real, elementary};
 
 use super::{NonContactLaw, NonContactResponse};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
+use crate::energy::AttractionAccount;
 use crate::events;
 use crate::functions::atan;
 use crate::kinematics::NormalMotion;
@@ -18,8 +19,9 @@ use crate::pair::Pair;
 /// and −F_0/(1 + 1.05 k S + 2.5 k² S²) apart. Its potential is U(S) = −F_0 (2/(Δ k)) (atan A − atan B) with
 /// A = (5 k S_c + 1.05)/Δ, B = (5 k S + 1.05)/Δ, Δ = √8.8975, and U(0) − F_0 δ in contact.
 ///
-/// Nobody does work when the bridge forms: −U(0), the work to break it, is booked as lost to adhesion at touch; nothing
-/// is lost at rupture, where the potential is zero.
+/// Nobody does work when the bridge forms: −U(0), the work to break it, is booked as dissipated by capillarity at touch.
+/// Nothing is lost at rupture, where the potential is zero: what bridges have cost that broke is what is dissipated less
+/// the −U(0) of those that there are.
 ///
 /// Every bridge has the same volume; V/R_w³ should be below about 1e-3, and the bodies should not be far from equal:
 /// only their mean radius enters. A step in which the force sets in or ends applies it for the part of the step in
@@ -113,6 +115,8 @@ impl LiquidBridge {
 impl NonContactLaw for LiquidBridge {
     /// One while there is a bridge.
     type Memory<R: Real> = [R; 1];
+
+    const ACCOUNT: AttractionAccount = AttractionAccount::Capillary;
 
     #[inline(always)]
     fn respond<R: Real>(&self, motion: &NormalMotion<R>, memory: &mut [R; 1]) -> NonContactResponse<R> {

@@ -3,6 +3,7 @@
 use pulvis_math::Real;
 
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Values, law_list};
+use crate::energy::AttractionAccount;
 use crate::kinematics::NormalMotion;
 use crate::memory::{self, Columns, Memory};
 use crate::pair::Pair;
@@ -37,6 +38,9 @@ pub struct NonContactResponse<R = f64> {
 pub trait NonContactLaw: Law {
     /// What a contact remembers.
     type Memory<R: Real>: Memory<R>;
+
+    /// The accounts of its potential and of what it dissipates.
+    const ACCOUNT: AttractionAccount = AttractionAccount::Adhesive;
 
     /// The response to a motion; updates the memory. It is asked as long as the bodies are within the law's
     /// [range](Self::interaction_range), and once more when they have left it: then it must be zero.
@@ -99,6 +103,12 @@ macro_rules! noncontact_laws {
                         answer
                     })*
                 }
+            }
+
+            /// See [`NonContactLaw::ACCOUNT`].
+            #[inline(always)]
+            pub fn account(&self) -> AttractionAccount {
+                match self { $(Self::$law(_) => <$law as NonContactLaw>::ACCOUNT,)* }
             }
 
             /// See [`NonContactLaw::interaction_range`].

@@ -41,6 +41,9 @@ pub struct NormalResponse<R: Real = f64> {
     pub dissipated_plastic: R,
     /// Energy lost on the adhesive limit branch, and where an attraction sets in or breaks, since the last call [J].
     pub dissipated_adhesive: R,
+    /// Energy lost since the last call because parameters changed with time or temperature; negative where the change did
+    /// work on the contact [J].
+    pub dissipated_thermal: R,
 }
 
 impl<R: Real> NormalResponse<R> {
@@ -64,6 +67,7 @@ impl<R: Real> NormalResponse<R> {
             adhesive_potential: R::zero(),
             dissipated_plastic: R::zero(),
             dissipated_adhesive: R::zero(),
+            dissipated_thermal: R::zero(),
         }
     }
 

@@ -271,7 +271,7 @@ impl<'p> Run<'p> {
             kinetic: if all { ledger.kinetic() } else { self.problem.kinetic(velocity) },
             potential_available: if all { ledger.elastic() } else { ledger.elastic_normal },
             potential_plastic: potential.unwrap_or(ledger.elastic_normal),
-            potential_attraction: ledger.adhesive,
+            potential_attraction: ledger.attraction(),
             dissipated: ledger.dissipated(),
             oblique,
         }

@@ -94,8 +94,10 @@ fn energies(scenario: &Scenario, series: &Series<'_>) -> Figure {
     for column in ["kinetic", "elastic"] {
         stored = stored.series(Line::line(column, series.over_time(column)));
     }
-    if let Some(points) = unless_zero(series.over_time("adhesive")) {
-        stored = stored.series(Line::line("adhesive", points));
+    for column in ["adhesive", "capillary", "electrostatic"] {
+        if let Some(points) = unless_zero(series.over_time(column)) {
+            stored = stored.series(Line::line(column, points));
+        }
     }
     if let Some(points) = unless_zero(since_start(series.over_time("gravity"))) {
         stored = stored.series(Line::line("gravity, change since the start", points));
@@ -105,6 +107,9 @@ fn energies(scenario: &Scenario, series: &Series<'_>) -> Figure {
     let accounts = [
         ("plastic", "dissipated_plastic"),
         ("adhesive", "dissipated_adhesive"),
+        ("capillary", "dissipated_capillary"),
+        ("fracture", "dissipated_fracture"),
+        ("thermal", "dissipated_thermal"),
         ("viscous", "dissipated_viscous"),
         ("sliding", "dissipated_sliding"),
         ("rolling", "dissipated_rolling"),

@@ -175,8 +175,8 @@ impl Path {
         let response = self.model.respond(&self.pair, &motion, duration, &mut self.columns);
         let energies = &response.energies;
         self.overlap = overlap;
-        self.lost += energies.dissipated_plastic + energies.dissipated_adhesive;
-        self.stored = energies.elastic_normal + energies.adhesive_potential;
+        self.lost += energies.dissipated();
+        self.stored = energies.stored();
         response
     }
 

@@ -46,27 +46,18 @@ fn balance(model: &ContactModel, dance: &Dance, count: usize) -> Balance {
             let done = -0.5 * dt * (then.power(&i, &j) + now.power(&i, &j));
             work += done;
             turned_over += done.abs() + 0.5 * dt * (e.viscous_power + earlier.viscous_power);
-            lost += e.dissipated_plastic
-                + e.dissipated_adhesive
-                + e.dissipated_sliding
-                + e.dissipated_rolling
-                + e.dissipated_torsion
-                + 0.5 * dt * (e.viscous_power + earlier.viscous_power);
-            let surplus = work - (stored(&e) - start);
+            lost += e.dissipated() + 0.5 * dt * (e.viscous_power + earlier.viscous_power);
+            let surplus = work - (e.stored() - start);
             worst = worst.max((surplus - lost).abs());
             deficit = deficit.max(-surplus);
         } else {
-            start = stored(&e);
+            start = e.stored();
         }
-        largest = largest.max(stored(&e).abs());
+        largest = largest.max(e.stored().abs());
         before = Some((now, e));
     }
     let all = turned_over + largest;
     Balance { missing: worst / all, deficit: deficit / all }
-}
-
-fn stored(e: &ContactEnergies<f64>) -> f64 {
-    e.elastic_normal + e.elastic_sliding + e.elastic_rolling + e.elastic_torsion + e.adhesive_potential
 }
 
 struct Work {

@@ -102,14 +102,11 @@ fn gathered(motions: &[ContactKinematics<f64>]) -> ContactKinematics<Eight> {
 }
 
 fn numbers<R: Real>(answer: &ContactResponse<R>, lane: usize) -> Vec<u64> {
-    let e = &answer.energies;
     let mut all = vec![answer.normal_force];
     for vector in [answer.force, answer.torque_i, answer.torque_j] {
         all.extend([vector.x, vector.y, vector.z]);
     }
-    all.extend([e.elastic_normal, e.elastic_sliding, e.elastic_rolling, e.elastic_torsion]);
-    all.extend([e.adhesive_potential, e.dissipated_plastic, e.dissipated_adhesive, e.dissipated_sliding]);
-    all.extend([e.dissipated_rolling, e.dissipated_torsion, e.viscous_power]);
+    all.extend(answer.energies.accounts().map(|(_, energy)| energy));
     all.into_iter().map(|number| number.lane(lane).to_bits()).collect()
 }
 

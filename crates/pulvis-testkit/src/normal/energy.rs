@@ -54,7 +54,7 @@ impl<N: NormalLaw> Path<'_, N> {
         let scale = bench.force * (bench.span + bench.range);
         let state = || format!("{:?}: {answer:?}, of {scale} J, at {overlap} m", bench.law);
         self.work += 0.5 * (self.force + answer.force) * (overlap - self.overlap);
-        for loss in [answer.dissipated_plastic, answer.dissipated_adhesive] {
+        for loss in [answer.dissipated_plastic, answer.dissipated_adhesive, answer.dissipated_thermal] {
             assert!(loss >= -1e-12 * scale || !bench.law.is_passive(), "{}", state());
             self.lost += loss;
         }

@@ -141,6 +141,7 @@ fn bits<R: Real>(answer: &NormalResponse<R>, lane: usize) -> Vec<u64> {
         answer.adhesive_potential,
         answer.dissipated_plastic,
         answer.dissipated_adhesive,
+        answer.dissipated_thermal,
     ];
     let masks = [answer.in_contact, answer.was_in_contact].map(|mask| u64::from(mask.lane(lane)));
     numbers.iter().map(|number| number.lane(lane).to_bits()).chain(masks).collect()

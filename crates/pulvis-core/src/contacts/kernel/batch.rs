@@ -1,5 +1,6 @@
 //! A batch of blocks in the contact loop: gathered, computed, added up.
 
+use pulvis_contact::normal::NormalSource;
 use pulvis_contact::{
     Columns, ContactEnergies, ContactInputs, ContactKinematics, ContactLaws, MemorySlots, Pair, levels,
 };
@@ -198,7 +199,8 @@ impl<R: Simd8> Batch<R> {
                 totals.totals.add(motion.overlap, motion.normal, length, answer.force);
             }
             if LEDGER && response.ledger {
-                totals.energies.add_dissipated::<RESISTANCE>(&answer.energies, response.with_memory);
+                let common = <C::Source<'_> as NormalSource<R>>::COMMON.is_some();
+                totals.energies.add_dissipated::<RESISTANCE>(&answer.energies, response.with_memory, common);
                 // The compiler moves the computation of stored energies into this branch.
                 if response.stored {
                     totals.energies.add_stored(&answer.energies);

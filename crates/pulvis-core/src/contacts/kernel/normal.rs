@@ -151,6 +151,7 @@ impl<N: NormalLaw> Routine<NormalTask> for RoutineOf<N> {
             if wants.losses {
                 slot.dissipated_plastic = answer.dissipated_plastic;
                 slot.dissipated_adhesive = answer.dissipated_adhesive;
+                slot.dissipated_thermal = answer.dissipated_thermal;
             }
             if wants.hardening {
                 slot.hardening = answer.hardening;

@@ -26,7 +26,7 @@ impl Flight<'_> {
         let before = self.problem.kinetic(self.problem.velocity);
         let energies = &self.response.energies;
         let dissipated = self.lost + self.motion[2];
-        let now = kinetic + energies.elastic_normal + energies.adhesive_potential + dissipated;
+        let now = kinetic + energies.stored() + dissipated;
         let rebound = regime == Regime::Rebound;
         Outcome {
             regime,
@@ -101,7 +101,7 @@ impl Flight<'_> {
                 &self.response,
                 &self.memory,
             ),
-            potential_attraction: energies.adhesive_potential,
+            potential_attraction: energies.attraction(),
             dissipated: self.lost + viscous,
             oblique: None,
         }

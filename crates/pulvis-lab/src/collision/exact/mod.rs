@@ -189,8 +189,8 @@ impl<'p> Flight<'p> {
     fn commit(&mut self) {
         self.response = self.dynamics.respond(self.phase, &self.motion, &mut self.memory);
         let energies = &self.response.energies;
-        self.lost += energies.dissipated_plastic + energies.dissipated_adhesive;
-        let size = energies.elastic_normal.max(-energies.adhesive_potential).max(self.lost);
+        self.lost += energies.dissipated();
+        let size = energies.elastic_normal.max(energies.attraction().abs()).max(self.lost);
         self.largest_energy = self.largest_energy.max(size);
     }
 
