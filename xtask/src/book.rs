@@ -43,6 +43,7 @@ fn heading(role: Role) -> &'static str {
         Role::Sliding => "Sliding",
         Role::Rolling => "Rolling",
         Role::Torsion => "Torsion",
+        Role::Bond => "Bonds",
         Role::Conventions => "Conventions",
         Role::Expected => "What contacts are expected to go through",
     }

@@ -187,6 +187,8 @@ contact_energies! {
         elastic_rolling,
         /// Stored in the torsion spring [J].
         elastic_torsion,
+        /// Stored in the springs of the bond [J].
+        elastic_bond,
         /// Potential of the attraction, zero beyond its range [J].
         adhesive_potential,
         /// Potential of liquid bridges, zero where they break [J].

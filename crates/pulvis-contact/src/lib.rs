@@ -19,6 +19,7 @@
 //! assert!((luding.respond(&motion, &mut memory).force - 1e-4).abs() < 1e-18);
 //! ```
 
+pub mod bond;
 pub mod catalogue;
 pub mod conventions;
 mod energy;
@@ -39,6 +40,7 @@ pub mod theory;
 mod time_scales;
 pub mod viscosity;
 
+pub use bond::Bond;
 pub use conventions::Conventions;
 pub use energy::{AttractionAccount, ContactEnergies};
 pub use expected::ExpectedLoading;

@@ -94,7 +94,7 @@ pub(crate) fn store_vector<R: Real>(
 }
 
 /// Where the laws of a contact keep their columns: those of the normal law first, then those of sliding, rolling,
-/// torsion and attraction, as far as there are such laws.
+/// torsion, attraction and bond, as far as there are such laws.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MemorySlots {
     pub(crate) normal_columns: usize,
@@ -102,6 +102,7 @@ pub struct MemorySlots {
     pub(crate) rolling: usize,
     pub(crate) torsion: usize,
     pub(crate) attraction: usize,
+    pub(crate) bond: usize,
     columns: usize,
 }
 
@@ -124,6 +125,12 @@ impl MemorySlots {
         self.attraction
     }
 
+    /// First column of the bond.
+    #[inline(always)]
+    pub fn bond(&self) -> usize {
+        self.bond
+    }
+
     /// First column of sliding. At the level of sliding alone it stands where the number of columns of the normal
     /// law says, which is known at compile time where the law is.
     #[inline(always)]
@@ -144,27 +151,30 @@ struct Part {
     columns: &'static [&'static str],
 }
 
+/// Parts of a contact that may remember something.
+const PARTS: usize = 6;
+
 /// The columns of a contact model: where they stand, what they are called, and whose they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MemoryLayout {
     slots: MemorySlots,
-    /// Normal law, sliding, rolling, torsion, attraction.
-    parts: [Part; 5],
+    /// Normal law, sliding, rolling, torsion, attraction, bond.
+    parts: [Part; PARTS],
 }
 
 impl MemoryLayout {
     /// Columns of the laws in the order of [`MemorySlots`], each a law's name and its columns' names with units.
-    pub(crate) fn new(parts: [(&'static str, &'static [&'static str]); 5]) -> Self {
-        let mut starts = [0; 5];
+    pub(crate) fn new(parts: [(&'static str, &'static [&'static str]); PARTS]) -> Self {
+        let mut starts = [0; PARTS];
         let mut columns = 0;
         for (start, (_, part)) in starts.iter_mut().zip(&parts) {
             *start = columns;
             columns += part.len();
         }
-        let [_, sliding, rolling, torsion, attraction] = starts;
+        let [_, sliding, rolling, torsion, attraction, bond] = starts;
         let normal_columns = parts[0].1.len();
         Self {
-            slots: MemorySlots { normal_columns, sliding, rolling, torsion, attraction, columns },
+            slots: MemorySlots { normal_columns, sliding, rolling, torsion, attraction, bond, columns },
             parts: parts.map(|(law, columns)| Part { law, columns }),
         }
     }

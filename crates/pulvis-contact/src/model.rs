@@ -4,13 +4,14 @@ use std::borrow::Borrow;
 
 use pulvis_math::Real;
 
+use crate::bond::{Bond, BondMemory, Form, INTACT};
 use crate::conventions::Conventions;
 use crate::energy::ContactEnergies;
 use crate::expected::ExpectedLoading;
 use crate::friction::{CommonFriction, ContactScale, Friction};
 use crate::kinematics::{ContactInputs, ContactKinematics, NormalMotion};
 use crate::levels;
-use crate::memory::{Columns, MemoryLayout, MemorySlots};
+use crate::memory::{self, Columns, Memory, MemoryLayout, MemorySlots};
 use crate::noncontact::{self, NonContact};
 use crate::normal::{Normal, NormalResponse, NormalSource};
 use crate::pair::Pair;
@@ -32,6 +33,8 @@ pub struct ContactLaws {
     pub rolling: Option<Friction>,
     /// Resistance against torsion.
     pub torsion: Option<Friction>,
+    /// Springs that hold the bodies together until they break.
+    pub bond: Option<Bond>,
     /// Choices in which codes differ.
     pub conventions: Conventions,
     /// What the contacts are expected to go through.
@@ -46,6 +49,7 @@ impl Default for ContactLaws {
             sliding: None,
             rolling: None,
             torsion: None,
+            bond: None,
             conventions: Conventions::default(),
             expected: ExpectedLoading::default(),
         }
@@ -67,9 +71,11 @@ impl ContactModel {
         Self { normal: normal.into(), laws: ContactLaws::default() }
     }
 
-    /// How far beyond touching the contact acts [m] between the bodies of `pair`. Greater bodies never act less far.
-    pub fn interaction_range(&self, pair: &Pair) -> f64 {
-        self.normal.interaction_range(pair).max(self.laws.noncontact.interaction_range(pair))
+    /// How far beyond touching the contact acts [m] between the bodies of `pair` with these radii [m], zero for a wall.
+    /// Greater bodies never act less far.
+    pub fn interaction_range(&self, pair: &Pair, radii: [f64; 2]) -> f64 {
+        let bond = self.laws.bond.map_or(0.0, |bond| bond.interaction_range(radii));
+        self.normal.interaction_range(pair).max(self.laws.noncontact.interaction_range(pair)).max(bond)
     }
 
     /// Whether the forces between the bodies of `pair` depend on how fast these move, or on time.
@@ -88,12 +94,14 @@ impl ContactModel {
         };
         use crate::catalogue::Role;
         let (normal, attraction) = (self.normal.entry(), self.laws.noncontact.entry());
+        let bond = self.laws.bond.as_ref().map(Bond::entry);
         MemoryLayout::new([
             (normal.name, normal.memory),
             of_friction(&self.laws.sliding, Role::Sliding),
             of_friction(&self.laws.rolling, Role::Rolling),
             of_friction(&self.laws.torsion, Role::Torsion),
             (attraction.name, attraction.memory),
+            bond.map_or(("", &[][..]), |entry| (entry.name, entry.memory)),
         ])
     }
 
@@ -109,7 +117,40 @@ impl ContactModel {
     ) -> ContactResponse<R> {
         let slots = *self.memory_layout().slots();
         let inputs = ContactInputs { pair, motion, time_step };
-        self.laws.respond::<R, _, _, { levels::ALL }>(&self.normal, &slots, inputs, columns)
+        let Some(bond) = &self.laws.bond else {
+            return self.laws.respond::<R, _, _, { levels::ALL }>(&self.normal, &slots, inputs, columns);
+        };
+        let bonded = bond.respond(inputs, slots.bond, columns);
+        let beside = bonded.beside(motion);
+        let inputs = ContactInputs { motion: &beside, ..inputs };
+        let mut response =
+            self.laws.respond::<R, _, _, { levels::ALL }>(&self.normal, &slots, inputs, columns);
+        bonded.add_to(&mut response);
+        response
+    }
+
+    /// The motion as the contact's own laws see it beside its bond. The bond's memory in `columns` changes as in a
+    /// [response](Self::respond).
+    pub fn beside_bond(&self, inputs: ContactInputs<'_, f64>, columns: &mut [f64]) -> ContactKinematics<f64> {
+        let start = self.memory_layout().slots().bond;
+        let bond = self.laws.bond.as_ref();
+        bond.map_or(*inputs.motion, |bond| bond.respond(inputs, start, columns).beside(inputs.motion))
+    }
+
+    /// Bonds bodies at an overlap [m], if their bond forms at the start of a stage, they are near enough, and were never
+    /// bonded before. Answers with whether it did. The memory stands in `columns`.
+    pub fn form_bond(&self, overlap: f64, columns: &mut [f64]) -> bool {
+        let Some(bond) = &self.laws.bond else { return false };
+        let start = self.memory_layout().slots().bond;
+        let before: BondMemory<f64> = memory::load(columns, start);
+        let forms = bond.formation.form == Form::StageStart
+            && before.state == 0.0
+            && overlap >= -bond.formation.distance;
+        if forms {
+            let memory = BondMemory { overlap, state: INTACT, ..BondMemory::default() };
+            memory.store(|column, value| columns[start + column] = value);
+        }
+        forms
     }
 
     /// How large and how stiff the contact of two bodies becomes under the loading that is expected.
@@ -129,6 +170,7 @@ impl ContactModel {
         let laws = &self.laws;
         let is = |friction: &Option<Friction>, common| friction.as_ref().is_none_or(|law| law.is(common));
         self.normal.is_common()
+            && laws.bond.is_none()
             && matches!(laws.noncontact, NonContact::None(_))
             && is(&laws.sliding, self.normal.common_sliding())
             && is(&laws.rolling, CommonFriction::SpringSlider)
@@ -141,14 +183,15 @@ impl ContactLaws {
         [&self.sliding, &self.rolling, &self.torsion].into_iter().flatten()
     }
 
-    /// Whether the contact resists sliding, rolling or torsion.
+    /// Whether the contact resists that the bodies slide, roll or twist, or that they turn with a bond.
     pub fn has_friction(&self) -> bool {
-        self.frictions().next().is_some()
+        self.bond.is_some() || self.frictions().next().is_some()
     }
 
-    /// Whether any of the laws against sliding, rolling and torsion has a dashpot.
+    /// Whether any of the laws against sliding, rolling and torsion, or the bond, has a dashpot.
     pub fn has_resistance_dashpot(&self) -> bool {
-        self.frictions().any(|friction| friction.dashpot() != 0.0)
+        self.bond.is_some_and(|bond| bond.springs.has_dashpot())
+            || self.frictions().any(|friction| friction.dashpot() != 0.0)
     }
 
     /// Whether a law against sliding, rolling or torsion takes its stiffness from the radius of the contact area.
@@ -161,15 +204,15 @@ impl ContactLaws {
         self.frictions().any(Friction::needs_normal_stiffness)
     }
 
-    /// Whether normal law and attraction may lose energy: one that remembers nothing cannot.
+    /// Whether normal law, attraction and bond may lose energy: one that remembers nothing cannot.
     #[inline(always)]
     pub fn remembers_normal_motion(&self, slots: &MemorySlots) -> bool {
-        slots.normal_columns() > 0 || slots.attraction < slots.columns()
+        slots.normal_columns() > 0 || slots.attraction < slots.bond || self.bond.is_some()
     }
 
     /// The lowest [level](levels) that leaves none of the contact's laws out.
     pub fn resistance_level(&self) -> u8 {
-        if self.rolling.is_some() || self.torsion.is_some() {
+        if self.rolling.is_some() || self.torsion.is_some() || self.bond.is_some() {
             levels::ALL
         } else if self.sliding.is_some() {
             levels::SLIDING
@@ -182,7 +225,7 @@ impl ContactLaws {
     /// with forces, torques and energies. Of the sliding, rolling and torsion laws those are left out that the level
     /// `RESISTANCE` (see [`levels`]) does not hold; their code is not there. Where `normal` is that of a
     /// [common](ContactModel::is_common) contact, the code of attractions and of uncommon friction laws is not there
-    /// either.
+    /// either. Bonds are not among the laws: their answer comes beforehand, and says which overlap these laws see.
     #[inline(always)]
     pub fn respond<R, N, C, const RESISTANCE: u8>(
         &self,
@@ -216,16 +259,24 @@ impl ContactLaws {
             ..ContactEnergies::default()
         };
         let mut attraction_force = R::zero();
+        let mut event_force = elastic.applied_force - elastic.force;
         if N::COMMON.is_none() && !matches!(self.noncontact, NonContact::None(_)) {
             let attraction = self.noncontact.respond(&along, columns, slots.attraction);
             normal_force += attraction.applied_force;
+            event_force += attraction.applied_force - attraction.force;
             attraction_force = attraction.force;
             energies.attract(self.noncontact.account(), attraction.potential, attraction.dissipated);
         }
         let force = motion.normal * normal_force;
         let stiffness = elastic.stiffness;
-        let mut response =
-            ContactResponse { normal_force, force, stiffness, energies, ..ContactResponse::default() };
+        let mut response = ContactResponse {
+            normal_force,
+            event_force,
+            force,
+            stiffness,
+            energies,
+            ..ContactResponse::default()
+        };
         if RESISTANCE >= levels::SLIDING {
             let reference = self.conventions.friction_reference(
                 elastic.friction_reference,

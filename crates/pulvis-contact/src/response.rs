@@ -9,6 +9,9 @@ use crate::energy::ContactEnergies;
 pub struct ContactResponse<R> {
     /// Total force along the normal, repulsion positive [N].
     pub normal_force: R,
+    /// The part of it that only weights a force that set in, or ended, within the step (see [`events`](crate::events))
+    /// [N].
+    pub event_force: R,
     /// Elastic stiffness of the normal force [N/m].
     pub stiffness: R,
     /// Force on i; the force on j is its opposite [N].
@@ -27,6 +30,7 @@ impl<R: Real> Default for ContactResponse<R> {
     fn default() -> Self {
         Self {
             normal_force: R::zero(),
+            event_force: R::zero(),
             stiffness: R::zero(),
             force: Vector3::zero(),
             torque_i: Vector3::zero(),

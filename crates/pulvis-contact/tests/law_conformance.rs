@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pulvis_contact::catalogue::{InvalidParameter, Law, LawEntry, Role, Values};
-use pulvis_contact::{Conventions, ExpectedLoading, NonContact, Normal, Viscosity, friction};
+use pulvis_contact::{Conventions, ExpectedLoading, NonContact, Normal, Viscosity, bond, friction};
 use pulvis_testkit as testkit;
 
 fn references(entries: &'static [LawEntry]) -> Vec<&'static LawEntry> {
@@ -21,6 +21,7 @@ fn every_description_is_complete_and_its_law_refuses_wrong_values() {
             friction::build(role, name, values)
         });
     }
+    testkit::catalogue::check_list(&bond::entries(), bond::build);
     fn built<L: Law>(name: &str, values: &Values) -> Option<Result<L, InvalidParameter>> {
         let entry = L::ENTRY;
         (name == entry.name).then(|| entry.complete(values).and_then(|all| L::from_values(&all)))

@@ -24,6 +24,8 @@ pub struct Ledger {
     pub elastic_rolling: f64,
     /// Stored in torsion springs [J].
     pub elastic_torsion: f64,
+    /// Stored in the springs of bonds [J].
+    pub elastic_bond: f64,
     /// Potential of attraction at a distance [J].
     pub adhesive: f64,
     /// Potential of liquid bridges, zero where they break [J].
@@ -77,7 +79,11 @@ impl Ledger {
 
     /// Elastic energy of all springs [J].
     pub fn elastic(&self) -> f64 {
-        self.elastic_normal + self.elastic_sliding + self.elastic_rolling + self.elastic_torsion
+        self.elastic_normal
+            + self.elastic_sliding
+            + self.elastic_rolling
+            + self.elastic_torsion
+            + self.elastic_bond
     }
 
     /// Potential of all attraction at a distance [J].
@@ -121,7 +127,7 @@ impl Ledger {
     }
 
     /// The names of all accounts with their values [J], in the order of output tables.
-    pub fn accounts(&self) -> [(&'static str, f64); 26] {
+    pub fn accounts(&self) -> [(&'static str, f64); 27] {
         [
             ("kinetic_translation", self.kinetic_translation),
             ("kinetic_rotation", self.kinetic_rotation),
@@ -130,6 +136,7 @@ impl Ledger {
             ("elastic_sliding", self.elastic_sliding),
             ("elastic_rolling", self.elastic_rolling),
             ("elastic_torsion", self.elastic_torsion),
+            ("elastic_bond", self.elastic_bond),
             ("adhesive", self.adhesive),
             ("capillary", self.capillary),
             ("electrostatic", self.electrostatic),
@@ -230,6 +237,7 @@ mod tests {
             elastic_sliding: 16.0,
             elastic_rolling: 32.0,
             elastic_torsion: 64.0,
+            elastic_bond: 2048.0,
             adhesive: 128.0,
             gravity: 256.0,
             capillary: 512.0,
@@ -238,7 +246,7 @@ mod tests {
         };
         let listed: f64 = ledger.accounts().iter().map(|(_, value)| value).sum();
         assert_eq!(listed, ledger.stored());
-        assert_eq!(listed, 2047.0);
+        assert_eq!(listed, 4095.0);
         let ledger = Ledger {
             dissipated_plastic: 1.0,
             dissipated_adhesive: 2.0,

@@ -20,7 +20,8 @@ use pulvis_parallel::{shared, thread_pool};
 
 pub use columns::{NameError, NamedColumn};
 pub use contacts::{
-    ContactPartner, ContactRecords, ContactTotals, ContactView, Interactions, MemoryColumn, MemoryError,
+    BondCount, BrokenBond, ContactPartner, ContactRecords, ContactTotals, ContactView, Interactions,
+    MemoryColumn, MemoryError,
 };
 pub use ledger::Ledger;
 pub use particles::{MaterialIndex, Particle, ParticleId, Particles, Vectors};

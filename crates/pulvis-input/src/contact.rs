@@ -8,7 +8,7 @@ use crate::reader::TableReader;
 use pulvis_contact::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Role, Value, Values};
 use pulvis_contact::{
     ContactLaws, ContactModel, Conventions, ExpectedLoading, Friction, NonContact, Normal, Pair, Viscosity,
-    friction,
+    bond, friction,
 };
 
 /// A law by its name in the catalogue, with its parameters.
@@ -82,6 +82,7 @@ fn read_laws(mut table: TableReader<'_>, known: Known<'_>) -> Result<NamedContac
     let mut slider =
         |role| read_law(&mut table, known, role, |name, values| friction::build(role, name, values));
     let (sliding, rolling, torsion) = (slider(Role::Sliding), slider(Role::Rolling), slider(Role::Torsion));
+    let bond = read_law(&mut table, known, Role::Bond, bond::build);
     let conventions = read_choices(&mut table, known);
     let expected = read_choices(&mut table, known);
     let without_area =
@@ -96,9 +97,10 @@ fn read_laws(mut table: TableReader<'_>, known: Known<'_>) -> Result<NamedContac
     let (sliding, sliding_law) = sliding?;
     let (rolling, rolling_law) = rolling?;
     let (torsion, torsion_law) = torsion?;
+    let (bond, bond_law) = bond?;
     let (conventions, choices) = conventions?;
     let (expected, expectation): (ExpectedLoading, _) = expected?;
-    let laws = ContactLaws { noncontact, viscosity, sliding, rolling, torsion, conventions, expected };
+    let laws = ContactLaws { noncontact, viscosity, sliding, rolling, torsion, bond, conventions, expected };
     let named = vec![
         normal_law,
         noncontact_law,
@@ -106,6 +108,7 @@ fn read_laws(mut table: TableReader<'_>, known: Known<'_>) -> Result<NamedContac
         sliding_law,
         rolling_law,
         torsion_law,
+        bond_law,
         choices,
         expectation,
     ];
@@ -141,6 +144,7 @@ pub fn entries(role: Role) -> Vec<&'static LawEntry> {
         Role::NonContact => NonContact::ENTRIES.iter().collect(),
         Role::Viscosity => Viscosity::ENTRIES.iter().collect(),
         Role::Sliding | Role::Rolling | Role::Torsion => friction::entries(role),
+        Role::Bond => bond::entries(),
         Role::Conventions => vec![&Conventions::ENTRY],
         Role::Expected => vec![&ExpectedLoading::ENTRY],
     }

@@ -50,6 +50,8 @@ impl Dimension {
     pub const ENERGY: Self = Self::new(1, 2, -2);
     /// Pressure, stress or modulus [Pa].
     pub const PRESSURE: Self = Self::new(1, -1, -2);
+    /// Stiffness over an area [Pa/m].
+    pub const STIFFNESS_PER_AREA: Self = Self::new(1, -2, -2);
     /// Power [W].
     pub const POWER: Self = Self::new(1, 2, -3);
     /// Electric current [A].
@@ -94,6 +96,7 @@ impl Dimension {
             (1, 2, -2) => ("J", "energy"),
             (1, -1, -2) => ("Pa", "pressure"),
             (1, 2, -3) => ("W", "power"),
+            (1, -2, -2) => ("Pa/m", "stiffness per area"),
             _ => return None,
         })
     }

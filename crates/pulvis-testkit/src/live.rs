@@ -14,6 +14,12 @@ pub struct Springs {
     pub rolling: Vector3,
     /// Of torsion, along the line of centres.
     pub torsion: f64,
+    /// Of the bond against shear [m].
+    pub bond_shear: Vector3,
+    /// Of the bond against bending [rad].
+    pub bond_bending: Vector3,
+    /// Of the bond against torsion, along the line of centres [rad].
+    pub bond_twist: f64,
 }
 
 /// A contact of any laws between two bodies, with its memory.
@@ -23,17 +29,23 @@ pub struct LiveContact {
     pair: Pair,
     layout: MemoryLayout,
     columns: Vec<f64>,
+    started: bool,
 }
 
 impl LiveContact {
-    /// A virgin contact of `model` between the bodies of `pair`.
+    /// A virgin contact of `model` between the bodies of `pair`. A bond that forms at the start of a stage does so where the
+    /// contact is asked first.
     pub fn new(model: &ContactModel, pair: Pair) -> Self {
         let layout = model.memory_layout();
-        Self { model: *model, pair, layout, columns: vec![0.0; layout.columns()] }
+        Self { model: *model, pair, layout, columns: vec![0.0; layout.columns()], started: false }
     }
 
     /// Forces, torques and energies after the step of `time_step` [s] that led to `motion`.
     pub fn respond(&mut self, motion: &ContactKinematics<f64>, time_step: f64) -> ContactResponse<f64> {
+        if !self.started {
+            self.model.form_bond(motion.overlap, &mut self.columns);
+            self.started = true;
+        }
         self.model.respond(&self.pair, motion, time_step, &mut self.columns)
     }
 
@@ -67,6 +79,11 @@ impl LiveContact {
         ]
     }
 
+    /// The first column of the bond: shear (3), bending (3), twist.
+    fn bond_start(&self) -> Option<usize> {
+        self.layout.column("bond_shear_x")
+    }
+
     /// The springs.
     pub fn springs(&self) -> Springs {
         let [sliding, rolling, torsion] = self.starts();
@@ -74,6 +91,9 @@ impl LiveContact {
             sliding: self.vector(sliding),
             rolling: self.vector(rolling),
             torsion: torsion.map_or(0.0, |start| self.columns[start]),
+            bond_shear: self.vector(self.bond_start()),
+            bond_bending: self.vector(self.bond_start().map(|start| start + 3)),
+            bond_twist: self.bond_start().map_or(0.0, |start| self.columns[start + 6]),
         }
     }
 
@@ -83,6 +103,7 @@ impl LiveContact {
         let in_springs = |column: usize| {
             [sliding, rolling].into_iter().flatten().any(|start| (start..start + 3).contains(&column))
                 || torsion == Some(column)
+                || self.bond_start().is_some_and(|start| (start..start + 7).contains(&column))
         };
         let all = self.columns.iter().enumerate();
         all.filter(|(column, _)| !in_springs(*column)).map(|(_, value)| *value).collect()

@@ -92,7 +92,7 @@ fn random_values(entry: &LawEntry, draw: &mut Draw) -> Values {
 
 fn center(parameter: &Parameter, around: &Values) -> f64 {
     match (around.optional_number(parameter.name), parameter.presence) {
-        (Some(number), _) | (None, Presence::Default(number)) if number > 0.0 => number,
+        (Some(number), _) | (None, Presence::Default(number)) if number > 0.0 && number.is_finite() => number,
         _ => 0.5,
     }
 }
@@ -111,7 +111,9 @@ fn random_number(range: Range, may_be_infinite: bool, center: f64, others: &Valu
     let equal: Vec<f64> = others
         .iter()
         .filter_map(|(_, value)| match value {
-            Value::Number(number) if range.holds(*number) => Some(*number),
+            Value::Number(number) if range.holds(*number) && (number.is_finite() || may_be_infinite) => {
+                Some(*number)
+            }
             _ => None,
         })
         .collect();

@@ -244,7 +244,9 @@ impl ReferenceEngine {
         let model = self.models[&(one.min(other), one.max(other))];
         let layout = model.memory_layout();
         let known = self.memory.remove(&bodies);
-        if motion.overlap <= -model.interaction_range(pair) && known.is_none() {
+        if motion.overlap <= -model.interaction_range(pair, [motion.radius_i, motion.radius_j])
+            && known.is_none()
+        {
             return;
         }
         let mut columns = match known {

@@ -29,6 +29,8 @@ pub enum Role {
     Rolling,
     /// Resistance against torsion (spinning about the line of centres).
     Torsion,
+    /// Springs that hold two bodies together until they break.
+    Bond,
     /// Choices in which codes differ.
     Conventions,
     /// What contacts are expected to go through.
@@ -37,13 +39,14 @@ pub enum Role {
 
 impl Role {
     /// Every role, in the order in which a contact is described.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Normal,
         Self::NonContact,
         Self::Viscosity,
         Self::Sliding,
         Self::Rolling,
         Self::Torsion,
+        Self::Bond,
         Self::Conventions,
         Self::Expected,
     ];
@@ -57,6 +60,7 @@ impl Role {
             Self::Sliding => "sliding",
             Self::Rolling => "rolling",
             Self::Torsion => "torsion",
+            Self::Bond => "bond",
             Self::Conventions => "conventions",
             Self::Expected => "expected",
         }

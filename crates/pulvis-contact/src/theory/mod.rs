@@ -29,6 +29,7 @@
 //! [`hertz`] and [`jkr`] and the pair of [`walton_johnson`] are not of this family.
 
 pub mod asymptotes;
+pub mod bond;
 mod branches;
 pub mod dimensionless;
 mod duration;

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use pulvis_contact::{ContactEnergies, ContactModel, MemoryLayout};
+use pulvis_contact::{ContactEnergies, ContactModel, MemoryLayout, bond};
 use pulvis_math::{F64Array, Mask, Simd8};
 
 use crate::walls::{WallFeature, WallForce};
@@ -209,6 +209,11 @@ impl ContactGroup {
     pub(crate) fn columns(&self, block: usize) -> &[F64x8] {
         let columns = self.layout.columns();
         &self.memory[block * columns..(block + 1) * columns]
+    }
+
+    /// The column of memory that holds the state of the bond, if its contacts may be bonded.
+    pub(crate) fn bond_state(&self) -> Option<usize> {
+        self.model.laws.bond.map(|_| self.layout.slots().bond() + bond::STATE)
     }
 
     /// The index of the wall that the contacts of a block of walls are with.

@@ -135,10 +135,10 @@ impl Interactions {
 /// walls alone. Either material may be that of a wall, too, at which the effective radius is largest: where the mean
 /// curvature [1/m] is least.
 fn longest_range(model: &ContactModel, [one, other]: [Option<f64>; 2], curvature: f64) -> f64 {
-    let between = one.zip(other).map(|(one, other)| Pair::spheres(1.0, 1.0, one, other));
-    let at_walls =
-        [one, other].into_iter().flatten().map(|radius| Pair::from_sums(1.0, 1.0 / radius + curvature));
-    at_walls.chain(between).map(|pair| model.interaction_range(&pair)).fold(0.0, max_or_nan)
+    let between = one.zip(other).map(|(one, other)| (Pair::spheres(1.0, 1.0, one, other), [one, other]));
+    let at_walls = [one, other].into_iter().flatten();
+    let at_walls = at_walls.map(|radius| (Pair::from_sums(1.0, 1.0 / radius + curvature), [radius, 0.0]));
+    at_walls.chain(between).map(|(pair, radii)| model.interaction_range(&pair, radii)).fold(0.0, max_or_nan)
 }
 
 #[cfg(test)]

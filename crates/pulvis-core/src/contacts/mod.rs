@@ -1,6 +1,7 @@
 //! The contact table: neighbour pairs in blocks of eight, and the memory of each contact.
 
 mod block;
+mod bonds;
 mod chunk;
 mod force_pass;
 mod interactions;
@@ -15,6 +16,8 @@ mod table;
 mod totals;
 mod view;
 
+pub(crate) use bonds::BrokenBonds;
+pub use bonds::{BondCount, BrokenBond};
 pub(crate) use force_pass::Sweep;
 pub use interactions::Interactions;
 pub(crate) use kernel::{Advance, KinematicColumns};

@@ -96,7 +96,7 @@ pub enum MemoryError {
 }
 
 /// Whether the second body is a wall, and the two bodies.
-type Key = (bool, u32, u32);
+pub(super) type Key = (bool, u32, u32);
 
 impl ContactRecords {
     /// No records yet of contacts like those of a group.
@@ -142,7 +142,7 @@ fn name_of((with_wall, _, second): Key) -> String {
 }
 
 /// The bodies of a contact, by their ids.
-fn key_of(group: &ContactGroup, ids: &[ParticleId], block: usize, lane: usize) -> Key {
+pub(super) fn key_of(group: &ContactGroup, ids: &[ParticleId], block: usize, lane: usize) -> Key {
     let first = ids[group.first_row(block, lane) as usize];
     let second = group.second_row(block, lane);
     match group.partner {

@@ -65,6 +65,11 @@ impl ContactTable {
         self.chunks.iter_mut().flat_map(|chunk| &mut chunk.groups)
     }
 
+    /// All chunks, to be changed.
+    pub(super) fn chunks_mut(&mut self) -> &mut [Chunk] {
+        &mut self.chunks
+    }
+
     /// All chunks.
     pub(crate) fn chunks(&self) -> &[Chunk] {
         &self.chunks

@@ -93,6 +93,12 @@ impl<'a> Views<'a> {
         })
     }
 
+    /// The overlap of a contact [m].
+    pub(crate) fn overlap(&self, block: usize, lane: usize) -> Option<f64> {
+        let first = self.group.first_row(block, lane) as usize;
+        Some(self.geometry(first, block, lane)?.motion.overlap)
+    }
+
     fn look<'b>(
         &self,
         block: usize,

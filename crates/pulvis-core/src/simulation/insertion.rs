@@ -47,6 +47,7 @@ impl Simulation {
         let (skin, mean_radius) = (self.skin.sizes(), self.mean_radius);
         // The ledger is taken before there are rows without forces.
         let closing_error = self.ledger().closing_error();
+        self.note_broken_bonds();
         let ids = self.particles.append(particles);
         for column in &mut self.particles.columns {
             let new = columns.iter().filter(|new| new.name == column.name);
@@ -124,6 +125,7 @@ impl Simulation {
             return;
         }
         let closing_error = self.ledger().closing_error();
+        self.note_broken_bonds();
         self.particles.reorder(&former, &self.pool);
         self.take_in_particles();
         self.renew_after_exchange(&former);

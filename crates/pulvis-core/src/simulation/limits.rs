@@ -147,8 +147,7 @@ impl Simulation {
         }
         let smallest = self.particles.radius.iter().copied().fold(f64::INFINITY, f64::min);
         let (radius, id) = (&self.particles.radius, &self.particles.id);
-        let walls = self.wall_states.iter().zip(&self.walls);
-        let walls: Vec<_> = walls.map(|(state, wall)| state.now_at_rest(wall)).collect();
+        let walls = self.walls_at_rest();
         let deepest =
             self.contacts.deeper_than(most * smallest, &self.particles, self.domain.images(), &walls);
         for Deep { rows: [first, second], wall, overlap } in deepest {

@@ -60,12 +60,18 @@ impl Simulation {
         let mut clock = Stopwatch::start(self.phases.is_some());
         self.phases = self.phases();
         self.choose_skin();
+        self.note_broken_bonds();
         self.contacts.remember(&mut self.memory, &self.pool);
         self.rebuild(None);
         self.rebuilds += 1;
         if let Some(phases) = &mut self.phases {
             clock.lap(&mut phases.neighbours);
         }
+    }
+
+    /// Takes note of bonds that have broken since the last rebuild. To be called before rows change.
+    pub(super) fn note_broken_bonds(&mut self) {
+        self.broken_bonds.take_in(&self.contacts, &self.particles.id);
     }
 
     /// Sets the skin that suits the number of neighbour pairs in the present list, as far as periods allow. Returns whether
@@ -148,6 +154,7 @@ impl Simulation {
             instructions: self.instructions,
         };
         let slots = self.contacts.rebuild(&around, grid, &self.memory, &self.pool);
+        self.contacts.restore_broken(&self.particles.id, &self.broken_bonds, &self.pool);
         self.particles.forces_and_torques.resize(slots, ForceTorque::default());
         self.outcomes.clear();
         let moved = Moved::nowhere(self.skin.thinnest);

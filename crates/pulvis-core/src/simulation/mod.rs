@@ -17,7 +17,7 @@ pub use state::{ListState, ParticleState, State, StateError, WallRecord};
 
 use pulvis_math::{InstructionSet, Packed4, Vector3, max_or_nan};
 
-use crate::contacts::{ContactTable, Interactions, MemoryStore};
+use crate::contacts::{BrokenBonds, ContactTable, Interactions, MemoryStore};
 use crate::integrator::Kicked;
 use crate::ledger::Running;
 use crate::neighbours::{Moved, Skin};
@@ -60,6 +60,8 @@ pub struct Simulation {
     step: u64,
     time: f64,
     contacts: ContactTable,
+    /// The pairs whose bond has broken, but for those of the present list that broke since it was made.
+    broken_bonds: BrokenBonds,
     /// Memory of the contacts during a rebuild.
     memory: MemoryStore,
     /// The row of each particle before it was put into the present order.
@@ -174,6 +176,7 @@ impl Simulation {
             step: 0,
             time: 0.0,
             contacts: ContactTable::default(),
+            broken_bonds: BrokenBonds::default(),
             memory: MemoryStore::default(),
             former_rows: Vec::new(),
             pool: ThreadPool::default(),
@@ -369,6 +372,7 @@ impl Simulation {
         rows + size_of_val(&self.particles.forces_and_torques[..])
             + self.contacts.memory_size()
             + self.memory.memory_size()
+            + self.broken_bonds.memory_size()
     }
 
     /// Number of pairs in the neighbour list.

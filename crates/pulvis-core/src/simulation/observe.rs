@@ -3,8 +3,9 @@
 use pulvis_math::max_or_nan;
 
 use super::Simulation;
-use crate::contacts::{ContactTotals, ContactView, Views, view_contacts};
+use crate::contacts::{BondCount, ContactTotals, ContactView, Views, view_contacts};
 use crate::ledger::Ledger;
+use crate::walls::WallNow;
 
 impl Simulation {
     /// Draws up the energy ledger. Looking changes nothing: the scale of relative errors is the largest energy in
@@ -36,6 +37,7 @@ impl Simulation {
             elastic_sliding: stored.elastic_sliding + unknown,
             elastic_rolling: stored.elastic_rolling + unknown,
             elastic_torsion: stored.elastic_torsion + unknown,
+            elastic_bond: stored.elastic_bond + unknown,
             adhesive: stored.adhesive_potential + unknown,
             capillary: stored.capillary + unknown,
             electrostatic: stored.electrostatic + unknown,
@@ -64,6 +66,16 @@ impl Simulation {
         ledger
     }
 
+    /// The bonds that hold, and those that have broken so far.
+    pub fn bonds(&self) -> BondCount {
+        self.contacts.count_bonds(&self.particles.id, &self.broken_bonds)
+    }
+
+    /// How all walls lie and move, without a step.
+    pub(super) fn walls_at_rest(&self) -> Vec<WallNow> {
+        self.wall_states.iter().zip(&self.walls).map(|(state, wall)| state.now_at_rest(wall)).collect()
+    }
+
     /// Sums over all contacts, as the loops have added them up at the end of the last advance.
     pub fn contact_totals(&self) -> ContactTotals {
         self.contacts.totals()
@@ -71,8 +83,7 @@ impl Simulation {
 
     /// Hands every contact that acts to `see`, pairs first, then walls.
     pub fn for_each_contact(&self, see: &mut dyn FnMut(&ContactView)) {
-        let walls = self.wall_states.iter().zip(&self.walls);
-        let walls: Vec<_> = walls.map(|(state, wall)| state.now_at_rest(wall)).collect();
+        let walls = self.walls_at_rest();
         for group in self.contacts.groups() {
             let (particles, images) = (&self.particles, self.domain.images());
             view_contacts(Views { group, particles, images, walls: &walls }, see);

@@ -57,6 +57,19 @@ impl Simulation {
         self.accounting = false;
     }
 
+    /// Bonds all pairs of bodies whose bond forms at the start of a stage, whose surfaces are not farther apart than its
+    /// distance, and which never were bonded before; walls among them. A bond has no force where it forms. Answers with how
+    /// many have formed.
+    pub fn form_bonds(&mut self) -> u64 {
+        let mut formed = 0;
+        self.switch(|simulation| {
+            let walls = simulation.walls_at_rest();
+            let (particles, images) = (&simulation.particles, simulation.domain.images());
+            formed = simulation.contacts.form_bonds(particles, images, &walls);
+        });
+        formed
+    }
+
     /// Sets another gravity and drag.
     ///
     /// # Errors

@@ -37,6 +37,14 @@ impl Bodies {
         }
     }
 
+    /// The radii of both bodies [m], zero for the wall.
+    pub fn radii(&self) -> [f64; 2] {
+        match self {
+            Self::Pair([i, j]) => [i.radius, j.radius],
+            Self::Wall(sphere) => [sphere.radius, 0.0],
+        }
+    }
+
     /// Mass [kg] and radius [m] of both bodies; `None` is the wall.
     pub fn masses_and_radii(&self) -> ((f64, f64), Option<(f64, f64)>) {
         let of = |sphere: &Sphere| (sphere.mass, sphere.radius);

@@ -5,8 +5,11 @@ use pulvis_contact::theory::{self, LudingPair, LudingParameters};
 use pulvis_contact::{ContactModel, NonContact, Normal, Pair};
 
 /// The closed forms of a pair, dashpots left out: of the Luding law, and of the linear law as its
-/// elastic limit kp = k1, kc = 0.
+/// elastic limit kp = k1, kc = 0. None of bodies that a bond may hold.
 pub fn luding_pair(contact: &ContactModel, pair: &Pair) -> Option<LudingPair> {
+    if contact.laws.bond.is_some() {
+        return None;
+    }
     let (mass, radius) = (pair.reduced_mass(), pair.harmonic_radius());
     let parameters = match contact.normal {
         Normal::Luding(law) => LudingParameters::new(law.k1, law.kp, law.kc, law.phi_f, mass, radius)

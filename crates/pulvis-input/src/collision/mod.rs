@@ -49,6 +49,7 @@ use crate::shape::{Name, Text};
 use draft::Draft;
 use incidence::read_incidence;
 use pulvis_contact::ContactModel;
+use pulvis_contact::bond::Form;
 use pulvis_math::{Dimension, elementary};
 use speed::read_speed;
 use std::path::Path;
@@ -166,7 +167,7 @@ fn case_at(
 fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, Reported> {
     let title = root.optional("title", Text);
     let collision = root.required_table("collision");
-    let contacts = read_compared(&mut root);
+    let contacts = read_compared(&mut root).and_then(|contacts| without_stages(&root, contacts));
     root.finish();
     let mut table = collision?;
     let bodies = read_bodies(&mut table);
@@ -213,6 +214,21 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
         labels: contacts.into_iter().map(|contact| contact.label).collect(),
         document: None,
     })
+}
+
+/// Refuses bonds that form at the start of a stage: a collision has none.
+fn without_stages(
+    root: &TableReader<'_>,
+    contacts: Vec<LabelledContact>,
+) -> Result<Vec<LabelledContact>, Reported> {
+    let awaits_stage = |contact: &LabelledContact| {
+        contact.contact.model.laws.bond.is_some_and(|bond| bond.formation.form == Form::StageStart)
+    };
+    if !contacts.iter().any(awaits_stage) {
+        return Ok(contacts);
+    }
+    let found = "a bond forms at the start of a stage, and a collision has no stages";
+    Err(root.refuse("contact", Problem::rule(found, "`form = \"first-touch\"` in [contact.bond]")))
 }
 
 /// Reports that a law whose memory changes with time cannot be followed from branch to branch.

@@ -9,10 +9,10 @@ use super::switches::{Switch, read_switches};
 use super::time::{TimeStep, read_time};
 use super::until::{StopRules, read_until};
 use super::walls::Wall;
-use crate::context::Reported;
+use crate::context::{Location, Reported};
 use crate::problem::Problem;
 use crate::reader::TableReader;
-use crate::shape::Text;
+use crate::shape::{Boolean, Text};
 use pulvis_boundary::{Background, Region, WallMotion};
 
 /// A stage of a run, with everything that holds while it lasts.
@@ -24,6 +24,8 @@ pub struct Stage {
     pub until: StopRules,
     /// The particles whose centres lie here are taken away at its start.
     pub remove: Option<Region>,
+    /// Whether bonds form at its start, where contacts have bonds that form then.
+    pub form_bonds: bool,
     /// The walls whose control changes at its start, by index; other walls go on as before.
     pub controls: Vec<(usize, WallControl)>,
     /// One contact for every pair of materials that can meet, in the order of [`super::Scenario::contacts`].
@@ -39,6 +41,8 @@ pub(super) struct PlannedStage {
     pub(super) name: String,
     pub(super) until: StopRules,
     pub(super) remove: Option<Region>,
+    /// Where the file says that bonds form at its start.
+    pub(super) form_bonds: Option<Location>,
     pub(super) controls: Vec<(usize, WallControl)>,
     pub(super) switches: Vec<Switch>,
     pub(super) time: TimeStep,
@@ -87,6 +91,7 @@ fn read_stage(
     });
     let until = read_until(&mut table);
     let remove = read_removal(&mut table);
+    let form_bonds = read_formation(&mut table);
     let controls = read_controls(&mut table, walls, now);
     let switches = read_switches(&mut table);
     let time = read_time(&mut table, now.time);
@@ -102,10 +107,17 @@ fn read_stage(
         name: name?,
         until: until?,
         remove: remove?,
+        form_bonds: form_bonds?,
         controls: controls?,
         switches: switches?,
         time: time?,
     })
+}
+
+/// Reads `form_bonds`; answers with its place where it is true.
+fn read_formation(stage: &mut TableReader<'_>) -> Result<Option<Location>, Reported> {
+    let place = stage.location("form_bonds");
+    Ok(stage.or("form_bonds", Boolean, false)?.then_some(place))
 }
 
 /// Reads `[stages.walls.NAME]`.

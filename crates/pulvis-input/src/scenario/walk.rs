@@ -15,9 +15,11 @@ use super::{Scenario, ScenarioSource};
 use crate::context::Reported;
 use crate::document::Document;
 use crate::error::InputErrors;
+use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::{Integer, Text};
 use pulvis_boundary::Background;
+use pulvis_contact::bond::Form;
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
@@ -145,6 +147,11 @@ impl Changing {
     }
 }
 
+/// Whether bonds of a contact form at the start of stages that say so.
+fn forms_bonds_at_start(contact: &Contact) -> bool {
+    contact.model.laws.bond.is_some_and(|bond| bond.formation.form == Form::StageStart)
+}
+
 /// The stages with everything that holds in them.
 fn resolve(
     document: &Document,
@@ -155,7 +162,7 @@ fn resolve(
     let mut document = document.clone();
     let mut stages: Vec<Stage> = Vec::with_capacity(planned.len());
     for stage in planned {
-        let PlannedStage { name, until, remove, controls, switches, time } = stage;
+        let PlannedStage { name, until, remove, form_bonds, controls, switches, time } = stage;
         let changing = if switches.is_empty() {
             let before = stages.last();
             Changing {
@@ -178,7 +185,15 @@ fn resolve(
             })?
         };
         let Changing { contacts, background } = changing;
-        stages.push(Stage { name, until, remove, controls, contacts, background, time });
+        if let Some(place) = &form_bonds
+            && !contacts.iter().any(forms_bonds_at_start)
+        {
+            let found = "no contact has a bond that forms at the start of a stage";
+            let expected = "a table [contacts.A-B.bond] with `form = \"stage-start\"`";
+            return Err(document.error_at(place, Problem::rule(found, expected)).into());
+        }
+        let form_bonds = form_bonds.is_some();
+        stages.push(Stage { name, until, remove, form_bonds, controls, contacts, background, time });
     }
     Ok(stages)
 }

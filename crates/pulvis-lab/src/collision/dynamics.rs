@@ -49,13 +49,13 @@ pub(super) struct Dynamics {
     radii: [f64; 2],
 }
 
-/// The branches of the normal law and of the attraction at a point.
+/// The branches of the normal law, of the attraction and of the bond at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Branches {
-    numbers: (u8, u8),
+    numbers: (u8, u8, u8),
     normal: &'static str,
     apart: &'static str,
-    /// Whether bodies apart attract each other.
+    /// Whether bodies apart attract each other, or are bonded.
     pub attracted: bool,
 }
 
@@ -70,8 +70,7 @@ impl Dynamics {
     /// The motion of two bodies under the laws of `model` along the line of their centres.
     pub fn new(model: &ContactModel, bodies: &Bodies) -> Self {
         let mut model = *model;
-        let ((_, radius_i), second) = bodies.masses_and_radii();
-        let (pair, radii) = (bodies.pair(), [radius_i, second.map_or(0.0, |(_, radius)| radius)]);
+        let (pair, radii) = (bodies.pair(), bodies.radii());
         (model.laws.sliding, model.laws.rolling, model.laws.torsion) = (None, None, None);
         Self { layout: model.memory_layout(), model, pair, radii }
     }
@@ -128,12 +127,19 @@ impl Dynamics {
         let normal = self.model.normal.branch(&self.pair, overlap, columns);
         let attraction = &self.model.laws.noncontact;
         let noncontact = attraction.branch(&self.pair, overlap, columns, self.layout.slots().attraction());
+        let bond = self.model.laws.bond.as_ref();
+        let (bonded, alone) = bond.map_or(((0, ""), false), |bond| {
+            let start = self.layout.slots().bond();
+            (bond.branch(self.radii, overlap, columns, start), bond.hides_contact())
+        });
+        let of_bond = (bonded.0 != 0).then_some(bonded.1);
+        // Beyond touching the bond or the attraction rules, unless the normal law acts there.
+        let apart = if normal.0 != 0 { normal.1 } else { of_bond.unwrap_or(noncontact.1) };
         Branches {
-            numbers: (normal.0, noncontact.0),
-            // Beyond touching the attraction rules, unless the normal law acts there.
-            apart: if normal.0 != 0 { normal.1 } else { noncontact.1 },
-            normal: normal.1,
-            attracted: noncontact.0 != 0 || normal.0 != 0,
+            numbers: (normal.0, noncontact.0, bonded.0),
+            apart,
+            normal: of_bond.filter(|_| alone).unwrap_or(normal.1),
+            attracted: noncontact.0 != 0 || normal.0 != 0 || bonded.0 != 0,
         }
     }
 

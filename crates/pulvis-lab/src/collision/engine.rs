@@ -226,7 +226,8 @@ impl<'p> Run<'p> {
 
     /// The branch on which the bodies are, or that of the attraction where they are apart.
     fn branch(&self, overlap: f64) -> &'static str {
-        ruling_branch(self.problem.contact, &self.problem.pair, overlap, &self.columns)
+        let Problem { contact, pair, bodies, .. } = self.problem;
+        ruling_branch(contact, pair, bodies.radii(), overlap, &self.columns)
     }
 
     fn finish(mut self) -> Collision {
@@ -261,6 +262,7 @@ impl<'p> Run<'p> {
         let all = oblique.is_some();
         let (normal, pair) = (&self.problem.contact.normal, &self.problem.pair);
         let branch = normal.branch(pair, overlap, &self.columns).0;
+        let elastic = ledger.elastic_normal + ledger.elastic_bond;
         let potential = normal.branch_potential(branch, &NormalMotion::at_rest(pair, overlap), &self.columns);
         Sample {
             time,
@@ -269,8 +271,8 @@ impl<'p> Run<'p> {
             force,
             delta_max: normal.remembered_overlap(&self.columns).unwrap_or(self.overlap_max),
             kinetic: if all { ledger.kinetic() } else { self.problem.kinetic(velocity) },
-            potential_available: if all { ledger.elastic() } else { ledger.elastic_normal },
-            potential_plastic: potential.unwrap_or(ledger.elastic_normal),
+            potential_available: if all { ledger.elastic() } else { elastic },
+            potential_plastic: potential.unwrap_or(elastic),
             potential_attraction: ledger.attraction(),
             dissipated: ledger.dissipated(),
             oblique,

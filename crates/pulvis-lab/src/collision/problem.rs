@@ -36,10 +36,12 @@ impl<'c> Problem<'c> {
         }
     }
 
-    /// Whether a dashpot acts along the line of centres, be it the normal law's own.
+    /// Whether a dashpot acts along the line of centres, be it the normal law's own or a bond's.
     pub fn is_damped(&self) -> bool {
         let own = self.contact.normal.dashpot(&self.pair, &self.contact.laws.expected);
-        own + self.contact.laws.viscosity.largest_coefficient(&self.pair, self.stiffness_scale()) > 0.0
+        let bond = self.contact.laws.bond;
+        bond.is_some_and(|bond| bond.springs.has_dashpot())
+            || own + self.contact.laws.viscosity.largest_coefficient(&self.pair, self.stiffness_scale()) > 0.0
     }
 
     /// Kinetic energy of the relative motion [J].
@@ -49,7 +51,7 @@ impl<'c> Problem<'c> {
 
     /// How far beyond touching the contact acts [m].
     pub fn interaction_range(&self) -> f64 {
-        self.contact.interaction_range(&self.pair)
+        self.contact.interaction_range(&self.pair, self.bodies.radii())
     }
 
     /// Where the bodies begin to feel each other on approach: an attraction that sets in with touch is

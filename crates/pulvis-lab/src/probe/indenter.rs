@@ -2,9 +2,12 @@
 
 use super::ProbeSample;
 use crate::branch::ruling_branch;
+use pulvis_contact::bond::INTACT;
 use pulvis_contact::conventions::LeverArm;
 use pulvis_contact::normal::NormalSource;
-use pulvis_contact::{ContactKinematics, ContactModel, ContactResponse, NormalMotion, NormalResponse, Pair};
+use pulvis_contact::{
+    ContactInputs, ContactKinematics, ContactModel, ContactResponse, NormalMotion, NormalResponse, Pair, bond,
+};
 use pulvis_input::collision::Bodies;
 use pulvis_math::Vector3;
 
@@ -44,12 +47,10 @@ pub(super) struct Indenter<'c> {
 }
 
 impl<'c> Indenter<'c> {
-    /// The contact at the start of its path. The work that brought it there from afar is what it stores.
+    /// The contact at the start of its path. The work that brought it there from afar is what it stores. A bond that forms
+    /// at the start of a stage does so here.
     pub(super) fn new(contact: &'c ContactModel, bodies: &Bodies, start: Pose, timed: bool) -> Self {
-        let radii = match bodies {
-            Bodies::Pair([i, j]) => [i.radius, j.radius],
-            Bodies::Wall(sphere) => [sphere.radius, 0.0],
-        };
+        let radii = bodies.radii();
         let count = contact.memory_layout().columns();
         let nothing = NormalResponse::none();
         let mut indenter = Self {
@@ -71,6 +72,7 @@ impl<'c> Indenter<'c> {
             legs: 0.0,
             samples: Vec::new(),
         };
+        contact.form_bond(start[0], &mut indenter.columns);
         indenter.last = indenter.ask(&start, &[0.0; 4], 0.0, &[0.0; 4]);
         let energies = &indenter.last.response.energies;
         indenter.dissipated = energies.dissipated();
@@ -133,7 +135,7 @@ impl<'c> Indenter<'c> {
             contact_radius: *contact_radius,
             stored_energy: response.energies.stored(),
             dissipated: self.dissipated,
-            branch: ruling_branch(self.contact, &self.pair, overlap, &self.columns),
+            branch: ruling_branch(self.contact, &self.pair, self.radii, overlap, &self.columns),
             shear,
             shear_force: against[1],
             roll,
@@ -148,8 +150,10 @@ impl<'c> Indenter<'c> {
     fn ask(&mut self, pose: &Pose, change: &Pose, time_step: f64, rates: &Pose) -> Answer {
         let mid = if time_step > 0.0 { change.map(|change| change / time_step) } else { *rates };
         let mut motion = self.kinematics(pose[0], &mid, rates, [pose[0]; 2]);
-        let along = NormalMotion::new(&self.pair, &motion, time_step);
         self.scratch.copy_from_slice(&self.columns);
+        let inputs = ContactInputs { pair: &self.pair, motion: &motion, time_step };
+        let along =
+            NormalMotion::new(&self.pair, &self.contact.beside_bond(inputs, &mut self.scratch), time_step);
         let normal = self.contact.normal.respond(&along, self.scratch.as_mut_slice());
         // Sliding takes its lever arms at mid-step, of a contact that began within the step in the middle of its part.
         let part = if along.growth > 0.0 && normal.in_contact && !normal.was_in_contact {
@@ -157,11 +161,12 @@ impl<'c> Indenter<'c> {
         } else {
             1.0
         };
-        let overlap = if normal.in_contact { pose[0] } else { 0.0 };
+        let bonded = self.is_bonded();
+        let overlap = if normal.in_contact || bonded { pose[0] } else { 0.0 };
         motion = self.kinematics(pose[0], &mid, rates, [overlap - 0.5 * part * change[0], overlap]);
         let response = self.contact.respond(&self.pair, &motion, time_step, &mut self.columns);
         Answer {
-            force: response.normal_force - normal.applied_force + normal.force,
+            force: response.normal_force - response.event_force,
             contact_radius: normal.contact_radius,
             against: self.against(&response, overlap),
             response,
@@ -202,8 +207,18 @@ impl<'c> Indenter<'c> {
         }
     }
 
-    /// The lever arms of the sliding force about the two centres, as the contact's convention has them [m].
+    /// Whether a bond holds.
+    fn is_bonded(&self) -> bool {
+        let slots = *self.contact.memory_layout().slots();
+        self.contact.laws.bond.is_some() && self.columns[slots.bond() + bond::STATE] == INTACT
+    }
+
+    /// The lever arms of the sliding force about the two centres, as the contact's convention has them, or those of a beam
+    /// that bonds the bodies [m].
     fn arms(&self, overlap: f64) -> [f64; 2] {
+        if self.is_bonded() && self.contact.laws.bond.is_some_and(|bond| bond.springs.at_mid_length()) {
+            return [0.5 * (self.radii[0] + self.radii[1] - overlap); 2];
+        }
         let shorter = match self.contact.laws.conventions.lever_arm {
             LeverArm::Corrected => 0.5 * overlap,
             LeverArm::Radius => 0.0,

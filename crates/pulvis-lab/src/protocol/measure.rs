@@ -11,6 +11,8 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 #[derive(Clone, Debug)]
 pub struct Measure {
     columns: Vec<String>,
+    /// Whether any contact of any stage may be bonded.
+    bonds: bool,
     scaled: Option<Scaled>,
 }
 
@@ -34,6 +36,11 @@ impl Measure {
         let contacts =
             ["particles", "contacts", "wall_contacts", "coordination", "overlap_max", "solid_fraction"];
         columns.extend(contacts.map(str::to_owned));
+        let mut contacts = scenario.stages.iter().flat_map(|stage| &stage.contacts);
+        let bonds = contacts.any(|contact| contact.model.laws.bond.is_some());
+        if bonds {
+            columns.extend(["bonds", "broken_bonds"].map(str::to_owned));
+        }
         columns.extend(AXES.map(|axis| format!("centre_of_mass_{axis}")));
         columns.extend(["stress_xx", "stress_yy", "stress_zz"].map(str::to_owned));
         for axis in AXES {
@@ -50,7 +57,7 @@ impl Measure {
             columns.extend(AXES.iter().flat_map(|axis| [format!("D_{axis}"), format!("F_{axis}")]));
             Scaled { length: plan.length, stiffness: plan.stiffness, reference: [None; 3] }
         });
-        let mut measure = Self { columns, scaled };
+        let mut measure = Self { columns, bonds, scaled };
         measure.take_reference(scenario, simulation);
         measure
     }
@@ -99,6 +106,10 @@ impl Measure {
             contacts.overlap_max,
             simulation.particles().total_volume() / volume,
         ]);
+        if self.bonds {
+            let bonds = simulation.bonds();
+            row.extend([bonds.intact as f64, bonds.broken as f64]);
+        }
         // Along a periodic direction there is no centre.
         let periodic = simulation.domain().periodic;
         let centre = simulation.particles().centre_of_mass().to_array();

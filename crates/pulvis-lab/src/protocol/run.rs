@@ -299,6 +299,9 @@ impl<'a> Run<'a> {
                 simulation.set_wall_present(*place, false);
             }
         }
+        if self.scenario.stages[number].form_bonds {
+            simulation.form_bonds();
+        }
         Ok(())
     }
 

@@ -1,6 +1,7 @@
 //! What is valid and yet probably not meant.
 
 use pulvis_boundary::WallMotion;
+use pulvis_contact::bond::Form;
 use pulvis_contact::{ContactModel, Pair};
 use pulvis_input::scenario::{Axis, BoxFace, Contact, Crossing, Scenario, Side, Stage, WallControl};
 use pulvis_math::Vector3;
@@ -11,6 +12,7 @@ use super::setup::Prepared;
 /// Everything that deserves a second look before the run starts.
 pub fn warnings(scenario: &Scenario, prepared: &Prepared) -> Vec<String> {
     let mut warnings = overdamped(scenario, prepared);
+    warnings.extend(unformed_bonds(scenario));
     let mut driven = Driven::at_start(scenario, prepared);
     for stage in &scenario.stages {
         driven.enter(stage);
@@ -131,6 +133,29 @@ fn stands_still(control: &WallControl) -> bool {
         WallControl::Motion(motion) => motion.law().constant_velocity() == Some(Vector3::zero()),
         WallControl::Removed => true,
     }
+}
+
+/// Contacts whose bonds form at the start of stages, where no stage forms any.
+fn unformed_bonds(scenario: &Scenario) -> Vec<String> {
+    if scenario.stages.iter().any(|stage| stage.form_bonds) {
+        return Vec::new();
+    }
+    let mut waiting: Vec<[usize; 2]> = Vec::new();
+    for contact in scenario.stages.iter().flat_map(|stage| &stage.contacts) {
+        let bond = contact.model.laws.bond;
+        let waits = bond.is_some_and(|bond| bond.formation.form == Form::StageStart);
+        if waits && !waiting.contains(&contact.materials) {
+            waiting.push(contact.materials);
+        }
+    }
+    let name = |material: usize| scenario.materials[material].name.as_str();
+    let text = |[one, other]: [usize; 2]| {
+        let (one, other) = (name(one), name(other));
+        format!(
+            "contact {one}-{other}: its bonds form at the start of a stage with `form_bonds = true`, and there is none"
+        )
+    };
+    waiting.into_iter().map(text).collect()
 }
 
 /// Contacts whose dashpots are beyond critical, each once.

@@ -4,7 +4,7 @@ use pulvis_contact::catalogue::{Role, Values};
 use pulvis_contact::normal::NormalSource;
 use pulvis_contact::{
     ContactKinematics, ContactModel, ContactResponse, Linear, NonContact, Normal, NormalMotion,
-    NormalResponse, Pair, Viscosity, friction,
+    NormalResponse, Pair, Viscosity, bond, friction,
 };
 use pulvis_input::collision::{Bodies, CollisionCase, Method, Sphere};
 use pulvis_math::Vector3;
@@ -57,6 +57,14 @@ pub(super) fn resisted_by(
 pub(super) fn attraction(name: &str, numbers: &[(&str, f64)]) -> Option<ContactModel> {
     let mut model = ContactModel::frictionless(Linear::new(f64::MIN_POSITIVE, 0.0));
     model.laws.noncontact = NonContact::build(name, &values(numbers))?.ok()?;
+    Some(model)
+}
+
+/// A bond that forms by touch, beside a spring that is hardly felt.
+pub(super) fn bonded(name: &str, numbers: &[(&str, f64)]) -> Option<ContactModel> {
+    let mut model = ContactModel::frictionless(Linear::new(f64::MIN_POSITIVE, 0.0));
+    let values = values(numbers).with_choice("form", "first-touch");
+    model.laws.bond = bond::build(name, &values)?.ok()?;
     Some(model)
 }
 
@@ -190,6 +198,11 @@ impl Path {
         let mut columns = self.columns.clone();
         let motion = NormalMotion::at_rest(&self.pair, overlap).between(self.radii[0], self.radii[1]);
         self.model.normal.respond(&motion, &mut columns[..])
+    }
+
+    /// What the contact remembers under a name (without its unit).
+    pub fn column(&self, name: &str) -> Option<f64> {
+        self.model.memory_layout().column(name).map(|column| self.columns[column])
     }
 
     /// The number of the normal law's branch at an overlap [m].

@@ -119,8 +119,7 @@ const NOT_CHECKED: &[(&str, &[&str])] = &[
     // Numbers that describe a material.
     ("dmt", &["tabor"]),
     ("tomas_published", &["kappa"]),
-    // Bonds and temperature are no laws of a pair alone.
-    ("jiang_bond", &["R_s"]),
+    // Temperature is no law of a pair alone.
     ("luding_sintering", &["k1", "k_T"]),
     ("sinter_parhami", &["delta_p"]),
 ];

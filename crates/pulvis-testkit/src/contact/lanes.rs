@@ -29,6 +29,14 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number(model: &ContactModel, draw
         let motions: Vec<_> =
             dances.iter().enumerate().map(|(lane, dance)| motion(dance, step, lane)).collect();
         let kinematics = gathered(&motions);
+        if step == 0 {
+            for (lane, alone) in memories.iter_mut().enumerate() {
+                model.form_bond(motions[lane].overlap, alone);
+                for (column, value) in memory.iter_mut().zip(alone) {
+                    column.0[lane] = *value;
+                }
+            }
+        }
         let together = model.respond(&pairs, &kinematics, dt, &mut memory);
         let inputs = ContactInputs { pair: &pairs, motion: &kinematics, time_step: dt };
         let of_loop = InLoop { model, inputs, columns: &mut inlined_memory };

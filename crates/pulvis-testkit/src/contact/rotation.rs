@@ -75,9 +75,16 @@ pub fn rigid_rotation(
     }
     let springs = contact.springs();
     let back = |vector: Vector3| turn(axis, -angle, vector);
-    let after = Springs { sliding: back(springs.sliding), rolling: back(springs.rolling), ..springs };
-    let energy =
-        |e: pulvis_contact::ContactEnergies<f64>| e.elastic_sliding + e.elastic_rolling + e.elastic_torsion;
+    let after = Springs {
+        sliding: back(springs.sliding),
+        rolling: back(springs.rolling),
+        bond_shear: back(springs.bond_shear),
+        bond_bending: back(springs.bond_bending),
+        ..springs
+    };
+    let energy = |e: pulvis_contact::ContactEnergies<f64>| {
+        e.elastic_sliding + e.elastic_rolling + e.elastic_torsion + e.elastic_bond
+    };
     RigidRotation {
         before,
         after,

@@ -37,7 +37,7 @@ pub(super) fn a_collision_at_the_automatic_step_keeps_its_energy(law: &Normal, d
     let laws = ContactLaws { expected, ..ContactLaws::default() };
     let model = ContactModel { normal: *law, laws };
     let dt = model.shortest_contact_time(body_i, body_j) / STEPS;
-    let range = model.interaction_range(&pair);
+    let range = model.interaction_range(&pair, [body_i.1, body_j.map_or(0.0, |(_, radius)| radius)]);
     let touching = body_i.1 + body_j.map_or(0.0, |(_, radius)| radius);
     let height = touching + range + draw.between(1.0, 2.0) * speed * dt;
     let mut sphere = Sphere::at_rest(body_i.0, body_i.1, Vector3::new(0.0, 0.0, height));

@@ -8,6 +8,7 @@ use pulvis_math::{F64Array, Packed4, Simd4, Simd4Pair, Simd8, Vector3};
 
 use super::super::block::{LaneIndices, WIDTH};
 use super::super::totals::GroupTotals;
+use super::bonds::Distance;
 use super::normal::NormalCall;
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
@@ -174,18 +175,19 @@ impl<R: Simd8> Batch<R> {
         totals: &mut BlockSums<R>,
     ) {
         let columns = response.slots.columns();
-        response.call.prepare(&self.blocks[..self.count], memory);
+        response.call.prepare(&mut self.blocks[..self.count], memory);
         for index in 0..self.count {
             let GatheredBlock { block, pair, motion } = &self.blocks[index];
             // SAFETY: the caller's.
             let mut columns = unsafe { BlockColumns::of(memory, *block, columns) };
             let inputs = ContactInputs { pair, motion, time_step: response.time_step };
-            let answer = response.laws.respond::<R, C::Source<'_>, _, RESISTANCE>(
+            let mut answer = response.laws.respond::<R, C::Source<'_>, _, RESISTANCE>(
                 &response.call.source(index),
                 &response.slots,
                 inputs,
                 &mut columns,
             );
+            response.call.complete(index, &mut answer);
             self.responses[index] = ContactResponses {
                 force: answer.force,
                 torque_i: answer.torque_i,
@@ -195,8 +197,8 @@ impl<R: Simd8> Batch<R> {
                 totals.rate_squared = totals.rate_squared.max(answer.stiffness * pair.inverse_reduced_mass());
             }
             if response.observed {
-                let length = motion.radius_i + motion.radius_j - motion.overlap;
-                totals.totals.add(motion.overlap, motion.normal, length, answer.force);
+                let Distance { overlap, length } = response.call.distance(index, motion);
+                totals.totals.add(overlap, motion.normal, length, answer.force);
             }
             if LEDGER && response.ledger {
                 let common = <C::Source<'_> as NormalSource<R>>::COMMON.is_some();

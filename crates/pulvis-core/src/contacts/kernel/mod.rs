@@ -1,6 +1,7 @@
 //! The contact loop: the same text for every law and instruction set.
 
 mod batch;
+mod bonds;
 mod normal;
 mod pairs;
 mod walls;

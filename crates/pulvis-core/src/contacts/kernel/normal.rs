@@ -3,10 +3,14 @@
 use std::marker::PhantomData;
 
 use pulvis_contact::normal::{Computed, Inlined, NormalSource, answer};
-use pulvis_contact::{Normal, NormalLaw, NormalLawVisitor, NormalMotion, NormalResponse};
+use pulvis_contact::{
+    ContactKinematics, ContactModel, ContactResponse, MemorySlots, Normal, NormalLaw, NormalLawVisitor,
+    NormalMotion, NormalResponse,
+};
 use pulvis_math::{F64Array, Pointer, Routine, Simd8, Task};
 
 use super::batch::{BATCH, BlockColumns, GatheredBlock};
+use super::bonds::{BondCall, Distance};
 
 /// Eight contacts at a time.
 type F64x8 = F64Array<8>;
@@ -18,11 +22,18 @@ pub(super) trait NormalCall<R: Simd8> {
     where
         Self: 'a;
 
-    /// Called once per batch, before any block of it is computed; `memory` is that of the group.
-    fn prepare(&mut self, blocks: &[GatheredBlock<R>], memory: &mut [F64x8]);
+    /// Called once per batch, before any block of it is computed; `memory` is that of the group. Where bonds take the
+    /// place of the contact's own laws, the blocks become what these laws see.
+    fn prepare(&mut self, blocks: &mut [GatheredBlock<R>], memory: &mut [F64x8]);
 
     /// The response for block `index` of the batch.
     fn source(&self, index: usize) -> Self::Source<'_>;
+
+    /// How far apart the bodies of block `index` are, whose laws see the motion `seen`.
+    fn distance(&self, index: usize, seen: &ContactKinematics<R>) -> Distance<R>;
+
+    /// Adds what block `index` has beside the contact's own laws to their answer.
+    fn complete(&self, index: usize, answer: &mut ContactResponse<R>);
 
     /// Whether the largest k/m_r is monitored.
     fn monitors_rate(&self) -> bool;
@@ -32,12 +43,20 @@ impl<R: Simd8, N: NormalLaw> NormalCall<R> for Inlined<N> {
     type Source<'a> = Self;
 
     #[inline(always)]
-    fn prepare(&mut self, _blocks: &[GatheredBlock<R>], _memory: &mut [F64x8]) {}
+    fn prepare(&mut self, _blocks: &mut [GatheredBlock<R>], _memory: &mut [F64x8]) {}
 
     #[inline(always)]
     fn source(&self, _index: usize) -> Self {
         *self
     }
+
+    #[inline(always)]
+    fn distance(&self, _index: usize, seen: &ContactKinematics<R>) -> Distance<R> {
+        Distance::of(seen)
+    }
+
+    #[inline(always)]
+    fn complete(&self, _index: usize, _answer: &mut ContactResponse<R>) {}
 
     #[inline(always)]
     fn monitors_rate(&self) -> bool {
@@ -71,14 +90,19 @@ pub(super) struct Pointed<'a, R: Simd8, const CURVED: bool> {
     columns: usize,
     time_step: f64,
     wants: Wants,
+    bonds: Option<BondCall<R>>,
 }
 
 impl<'a, R: Simd8, const CURVED: bool> Pointed<'a, R, CURVED> {
-    /// Calls of a law whose contacts have so many columns of memory, over steps of `time_step` [s].
+    /// Calls of the normal law and of the bond of a model, over steps of `time_step` [s], with the memory where `slots`
+    /// says.
     #[inline(always)]
-    pub(super) fn new(law: &'a Normal, columns: usize, time_step: f64, wants: Wants) -> Self {
+    pub(super) fn new(model: &'a ContactModel, slots: &MemorySlots, time_step: f64, wants: Wants) -> Self {
+        let law = &model.normal;
         let pointer = law.accept(PointerOf::<R>(PhantomData));
-        Self { law, pointer, answers: [NormalResponse::none(); BATCH], columns, time_step, wants }
+        let bonds = model.laws.bond.map(|bond| BondCall::new(bond, *slots, time_step));
+        let (answers, columns) = ([NormalResponse::none(); BATCH], slots.columns());
+        Self { law, pointer, answers, columns, time_step, wants, bonds }
     }
 }
 
@@ -89,8 +113,11 @@ impl<R: Simd8, const CURVED: bool> NormalCall<R> for Pointed<'_, R, CURVED> {
         Self: 'a;
 
     #[inline(always)]
-    fn prepare(&mut self, blocks: &[GatheredBlock<R>], memory: &mut [F64x8]) {
-        let Self { law, pointer, answers, columns, time_step, wants } = self;
+    fn prepare(&mut self, blocks: &mut [GatheredBlock<R>], memory: &mut [F64x8]) {
+        if let Some(bonds) = &mut self.bonds {
+            bonds.prepare(blocks, memory);
+        }
+        let Self { law, pointer, answers, columns, time_step, wants, .. } = self;
         let (columns, time_step, wants) = (*columns, *time_step, *wants);
         pointer.call(&mut NormalBatch { law, blocks, answers, memory, columns, time_step, wants });
     }
@@ -98,6 +125,21 @@ impl<R: Simd8, const CURVED: bool> NormalCall<R> for Pointed<'_, R, CURVED> {
     #[inline(always)]
     fn source(&self, index: usize) -> Computed<'_, R, CURVED> {
         Computed(&self.answers[index])
+    }
+
+    #[inline(always)]
+    fn distance(&self, index: usize, seen: &ContactKinematics<R>) -> Distance<R> {
+        match &self.bonds {
+            Some(bonds) => bonds.distance(index),
+            None => Distance::of(seen),
+        }
+    }
+
+    #[inline(always)]
+    fn complete(&self, index: usize, answer: &mut ContactResponse<R>) {
+        if let Some(bonds) = &self.bonds {
+            bonds.add_to(index, answer);
+        }
     }
 
     #[inline(always)]

@@ -107,9 +107,8 @@ impl<const RESISTANCE: u8> Kernel for PointedPairs<'_, RESISTANCE> {
     fn run<R: Simd8>(self) {
         let Self(contacts) = self;
         let (group, advance) = (&*contacts.group, contacts.advance);
-        let normal = group.model.normal;
-        let columns = group.layout.columns();
-        let call = Pointed::<R, false>::new(&normal, columns, advance.time_step, wants(group, advance));
+        let (model, slots) = (group.model, group.layout.slots());
+        let call = Pointed::<R, false>::new(&model, slots, advance.time_step, wants(group, advance));
         let response = response(call, group, advance, advance.ledger);
         // SAFETY: as the caller of `sweep` vouches.
         unsafe { sweep_pairs::<R, _, RESISTANCE, true>(response, contacts) };

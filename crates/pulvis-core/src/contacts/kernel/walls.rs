@@ -33,11 +33,12 @@ impl Kernel for WallLoop<'_> {
     fn run<R: Simd8>(self) {
         let Self { contacts: Loop { group, sums, moving, advance, approach, .. }, walls } = self;
         let sums = Shared::new(sums);
-        let (laws, normal) = (group.model.laws, group.model.normal);
+        let model = group.model;
+        let laws = &model.laws;
         let (turns, turning_dashpots) = (laws.has_friction(), laws.has_resistance_dashpot());
         let interaction_range = R::splat(-group.interaction_range);
-        let columns = group.layout.columns();
-        let call = Pointed::<R, true>::new(&normal, columns, advance.time_step, wants(group, advance));
+        let slots = group.layout.slots();
+        let call = Pointed::<R, true>::new(&model, slots, advance.time_step, wants(group, advance));
         let mut response = response(call, group, advance, advance.ledger);
         let mut totals = BlockSums::<R>::new();
         let any_turns = walls.iter().any(|wall| wall.angular_velocity().is_some());

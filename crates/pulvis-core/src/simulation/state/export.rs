@@ -25,6 +25,7 @@ impl Simulation {
             step,
             time,
             contacts,
+            broken_bonds,
             // Filled and used up in a rebuild.
             memory: _,
             former_rows,
@@ -69,6 +70,7 @@ impl Simulation {
             walls: walls_of(walls, wall_states, wall_starts, &skin.walls),
             list,
             memory,
+            broken_bonds: broken_bonds.pairs().to_vec(),
             ledger: running.numbers(),
         }
     }

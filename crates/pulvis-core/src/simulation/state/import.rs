@@ -4,7 +4,7 @@ use pulvis_math::{Packed4, Vector3};
 
 use super::{ListState, ParticleState, State, StateError, WallRecord};
 use crate::columns::NumberReader;
-use crate::contacts::Interactions;
+use crate::contacts::{BrokenBonds, Interactions};
 use crate::ledger::Running;
 use crate::neighbours::{CellGrid, Moved, Skin};
 use crate::particles::{ForceTorque, Particle, Particles};
@@ -34,6 +34,7 @@ impl Simulation {
         let State { domain, background, time_step, .. } = *state;
         let mut simulation =
             Self::without_list(particles, interactions, walls, domain, background, time_step);
+        simulation.broken_bonds = BrokenBonds::new(&state.broken_bonds);
         simulation.check_models()?;
         simulation.check_walls()?;
         simulation.remake_list(&state.list)?;

@@ -8,7 +8,7 @@ mod import;
 pub use error::StateError;
 
 use crate::columns::NamedColumn;
-use crate::contacts::ContactRecords;
+use crate::contacts::{BrokenBond, ContactRecords};
 use crate::particles::{MaterialIndex, ParticleId};
 use pulvis_boundary::{Background, Domain};
 
@@ -44,6 +44,8 @@ pub struct State {
     pub list: ListState,
     /// Memory of the contacts, one table for each kind of memory.
     pub memory: Vec<ContactRecords>,
+    /// The pairs whose bond had broken when the list was made.
+    pub broken_bonds: Vec<BrokenBond>,
     /// The sums of the energy ledger so far, by name [J, and W for powers].
     pub ledger: Vec<(String, f64)>,
 }

@@ -21,6 +21,9 @@ impl Scenario {
         for stage in &self.stages {
             writer.item("stages");
             writer.key("name", text(&stage.name));
+            if stage.form_bonds {
+                writer.key("form_bonds", true.to_string());
+            }
             writer.table("stages.until");
             write_until(writer, &stage.until);
             if let Some(region) = &stage.remove {

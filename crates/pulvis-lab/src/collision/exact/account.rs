@@ -94,7 +94,7 @@ impl Flight<'_> {
             force: self.response.normal_force,
             delta_max: self.dynamics.remembered_overlap(&self.memory).unwrap_or(self.overlap_max),
             kinetic: self.problem.kinetic(velocity),
-            potential_available: energies.elastic_normal,
+            potential_available: energies.elastic_normal + energies.elastic_bond,
             potential_plastic: self.dynamics.branch_potential(
                 &branches,
                 overlap,

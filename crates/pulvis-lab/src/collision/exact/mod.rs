@@ -190,7 +190,8 @@ impl<'p> Flight<'p> {
         self.response = self.dynamics.respond(self.phase, &self.motion, &mut self.memory);
         let energies = &self.response.energies;
         self.lost += energies.dissipated();
-        let size = energies.elastic_normal.max(energies.attraction().abs()).max(self.lost);
+        let size =
+            (energies.elastic_normal + energies.elastic_bond).max(energies.attraction().abs()).max(self.lost);
         self.largest_energy = self.largest_energy.max(size);
     }
 

@@ -2,6 +2,7 @@
 
 mod adhesive;
 mod attractions;
+mod bonds;
 mod elastic;
 mod friction;
 mod linear;
@@ -22,6 +23,7 @@ pub(super) const ALL: &[&[Suite]] = &[
     plastic_spheres::SUITES,
     attractions::SUITES,
     friction::SUITES,
+    bonds::SUITES,
 ];
 
 /// A formula evaluated once.
