@@ -87,6 +87,11 @@ fn describe(text: &mut String, entry: &LawEntry) {
             let _ = writeln!(text, "- `\"{}\"`: {}", option.name, option.meaning);
         }
     }
+    for quantity in entry.particle_quantities {
+        let (name, unit, allowed) = (quantity.name, quantity.unit(), quantity.allowed());
+        let _ =
+            writeln!(text, "\nReads `{name}` of each particle [{unit}]: {}, {allowed}.", quantity.meaning);
+    }
     if !entry.memory.is_empty() {
         let _ = writeln!(text, "\nMemory of a contact: {}.", entry.memory.join(", "));
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use pulvis_contact::{ContactEnergies, ContactInputs, ContactModel, Pair, levels};
+use pulvis_contact::{ContactEnergies, ContactInputs, ContactModel, Pair, ROOM_TEMPERATURE, levels};
 use pulvis_math::{F64Array, InstructionSet, Kernel, Real, Simd8};
 
 use super::contacts::{Contacts, Store};
@@ -87,7 +87,12 @@ impl<S> Sweep<'_, S> {
                 let pair = Pair::from_sums(inverse_masses, inverse_radii);
                 let motion = load_motion::<R, S>(stored);
                 let mut memory = Slots(&mut store.memory[group * columns..(group + 1) * columns]);
-                let inputs = ContactInputs { pair: &pair, motion: &motion, time_step: TIME_STEP };
+                let inputs = ContactInputs {
+                    pair: &pair,
+                    motion: &motion,
+                    time_step: TIME_STEP,
+                    temperature: ROOM_TEMPERATURE,
+                };
                 let answer = model.laws.respond::<R, _, _, { levels::ALL }>(
                     &model.normal,
                     &slots,

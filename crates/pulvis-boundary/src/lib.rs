@@ -10,6 +10,7 @@ mod domain;
 pub mod motion;
 mod region;
 mod shape;
+mod temperature;
 
 pub use background::{Background, Drag};
 pub use cuboid::Cuboid;
@@ -17,3 +18,4 @@ pub use domain::{Domain, Images};
 pub use motion::WallMotion;
 pub use region::Region;
 pub use shape::{Cylinder, CylinderSide, Plane, Shape, Surface, WallShape};
+pub use temperature::{InvalidProgram, TemperatureProgram};

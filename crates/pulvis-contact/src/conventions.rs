@@ -171,6 +171,7 @@ impl Law for Conventions {
                 "what dashpots against sliding, rolling and torsion see while the contact slips",
             ),
         ],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "rigid rotation of a stuck pair changes neither spring nor energy (conformance suite)",
         example: "friction_reference = \"adhesive-limit\"\nspring_rotation = \"rescale\"",

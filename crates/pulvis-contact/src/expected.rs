@@ -61,6 +61,7 @@ impl Law for ExpectedLoading {
             )
             .or(OVERLAP),
         ],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "overlap of a Hertz collision in pulvis_contact::theory::hertz",
         example: "speed = \"1 m/s\"",

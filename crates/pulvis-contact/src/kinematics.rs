@@ -45,7 +45,12 @@ pub struct ContactInputs<'a, R> {
     pub motion: &'a ContactKinematics<R>,
     /// The step that led there [s].
     pub time_step: f64,
+    /// Temperature in the middle of that step [K].
+    pub temperature: f64,
 }
+
+/// The temperature of contacts whose laws do not ask for one [K].
+pub const ROOM_TEMPERATURE: f64 = 293.15;
 
 /// What a normal law sees of a contact: the motion along the line of centres.
 #[derive(Clone, Copy, Debug)]
@@ -68,12 +73,14 @@ pub struct NormalMotion<R: Real> {
     pub growth: R,
     /// Length of that step [s]; zero where the contact is looked at without a step.
     pub time_step: f64,
+    /// Temperature in the middle of that step [K].
+    pub temperature: f64,
 }
 
 impl<R: Real> NormalMotion<R> {
-    /// The normal part of a motion after a step of `time_step` [s].
+    /// The normal part of a motion after a step of `time_step` [s], with the `temperature` [K] in its middle.
     #[inline(always)]
-    pub fn new(pair: &Pair<R>, kinematics: &ContactKinematics<R>, time_step: f64) -> Self {
+    pub fn new(pair: &Pair<R>, kinematics: &ContactKinematics<R>, time_step: f64, temperature: f64) -> Self {
         let touching = kinematics.overlap.gt(R::zero());
         Self {
             pair: *pair,
@@ -85,6 +92,7 @@ impl<R: Real> NormalMotion<R> {
             closing_rate: -kinematics.velocity.dot(kinematics.normal),
             growth: kinematics.velocity_mid.dot(kinematics.normal) * R::splat(-time_step),
             time_step,
+            temperature,
         }
     }
 
@@ -105,6 +113,7 @@ impl<R: Real> NormalMotion<R> {
             closing_rate: zero,
             growth: zero,
             time_step: 0.0,
+            temperature: ROOM_TEMPERATURE,
         }
     }
 

@@ -33,7 +33,7 @@ pub mod memory;
 mod model;
 pub mod noncontact;
 pub mod normal;
-mod pair;
+pub mod pair;
 mod resistance;
 mod response;
 pub mod theory;
@@ -45,7 +45,7 @@ pub use conventions::Conventions;
 pub use energy::{AttractionAccount, ContactEnergies};
 pub use expected::ExpectedLoading;
 pub use friction::{ContactScale, Friction, Mindlin, SpringSlider};
-pub use kinematics::{ContactInputs, ContactKinematics, NormalMotion};
+pub use kinematics::{ContactInputs, ContactKinematics, NormalMotion, ROOM_TEMPERATURE};
 pub use memory::{Columns, Memory, MemoryLayout, MemorySlots};
 pub use model::{ContactLaws, ContactModel};
 pub use noncontact::NonContact;
@@ -53,7 +53,7 @@ pub use normal::{
     Dahneke, Dmt, Hertz, Jkr, LeeRadok, Linear, Luding, Normal, NormalLaw, NormalLawVisitor, NormalResponse,
     ThorntonNing, ViscoelasticJkr, WaltonJohnson,
 };
-pub use pair::Pair;
+pub use pair::{MOST_QUANTITIES, Pair, Quantities};
 pub use response::ContactResponse;
 pub use time_scales::Partner;
 pub use viscosity::Viscosity;

@@ -5,16 +5,17 @@ use std::borrow::Borrow;
 use pulvis_math::Real;
 
 use crate::bond::{Bond, BondMemory, Form, INTACT};
+use crate::catalogue::Parameter;
 use crate::conventions::Conventions;
 use crate::energy::ContactEnergies;
 use crate::expected::ExpectedLoading;
 use crate::friction::{CommonFriction, ContactScale, Friction};
-use crate::kinematics::{ContactInputs, ContactKinematics, NormalMotion};
+use crate::kinematics::{ContactInputs, ContactKinematics, NormalMotion, ROOM_TEMPERATURE};
 use crate::levels;
 use crate::memory::{self, Columns, Memory, MemoryLayout, MemorySlots};
 use crate::noncontact::{self, NonContact};
 use crate::normal::{Normal, NormalResponse, NormalSource};
-use crate::pair::Pair;
+use crate::pair::{Pair, Quantities};
 use crate::resistance::Resistance;
 use crate::response::ContactResponse;
 use crate::viscosity::{self, Viscosity};
@@ -86,6 +87,36 @@ impl ContactModel {
             || self.laws.has_resistance_dashpot()
     }
 
+    /// Whether a law of it needs to know the temperature.
+    pub fn needs_temperature(&self) -> bool {
+        self.normal.needs_temperature()
+    }
+
+    /// The quantities of each particle that its laws read: those of the normal law, then those of the attraction.
+    pub fn particle_quantities(&self) -> impl Iterator<Item = &'static Parameter> + use<> {
+        let (normal, attraction) = (self.normal.entry(), self.laws.noncontact.entry());
+        normal.particle_quantities.iter().chain(attraction.particle_quantities)
+    }
+
+    /// The quantities of two bodies that the laws read, in their order, from those `of` a name.
+    pub fn quantities(&self, of: impl Fn(&str) -> [f64; 2]) -> Quantities {
+        let mut quantities = Quantities::default();
+        let (normal, attraction) = (self.normal.entry(), self.laws.noncontact.entry());
+        for (slots, entry) in [(&mut quantities.normal, normal), (&mut quantities.attraction, attraction)] {
+            for (slot, quantity) in slots.iter_mut().zip(entry.particle_quantities) {
+                *slot = of(quantity.name);
+            }
+        }
+        quantities
+    }
+
+    /// The same contact knowing the `largest` size of each particle quantity by its name: what bounds its stiffness.
+    #[must_use]
+    pub fn bounded_by(mut self, largest: impl Fn(&str) -> f64) -> Self {
+        self.laws.noncontact = self.laws.noncontact.bounded_by(&largest);
+        self
+    }
+
     /// Where and under which names the contact keeps what it remembers.
     pub fn memory_layout(&self) -> MemoryLayout {
         let of_friction = |friction: &Option<Friction>, role| {
@@ -107,7 +138,7 @@ impl ContactModel {
 
     /// The whole contact, for one pair or eight: updates the memory in `columns`, laid out as
     /// [`memory_layout`](Self::memory_layout) says, and answers with forces, torques and energies. `time_step` [s] is
-    /// the step that led to `motion`.
+    /// the step that led to `motion`. The temperature is that of a room.
     pub fn respond<R: Real>(
         &self,
         pair: &Pair<R>,
@@ -115,8 +146,19 @@ impl ContactModel {
         time_step: f64,
         columns: &mut [R],
     ) -> ContactResponse<R> {
+        self.respond_at(pair, motion, [time_step, ROOM_TEMPERATURE], columns)
+    }
+
+    /// The same after a step [s] with a temperature in its middle [K].
+    pub fn respond_at<R: Real>(
+        &self,
+        pair: &Pair<R>,
+        motion: &ContactKinematics<R>,
+        [time_step, temperature]: [f64; 2],
+        columns: &mut [R],
+    ) -> ContactResponse<R> {
         let slots = *self.memory_layout().slots();
-        let inputs = ContactInputs { pair, motion, time_step };
+        let inputs = ContactInputs { pair, motion, time_step, temperature };
         let Some(bond) = &self.laws.bond else {
             return self.laws.respond::<R, _, _, { levels::ALL }>(&self.normal, &slots, inputs, columns);
         };
@@ -239,8 +281,8 @@ impl ContactLaws {
         N: NormalSource<R>,
         C: Columns<R> + ?Sized,
     {
-        let ContactInputs { pair, motion, time_step } = inputs;
-        let along = NormalMotion::new(pair, motion, time_step);
+        let ContactInputs { pair, motion, time_step, temperature } = inputs;
+        let along = NormalMotion::new(pair, motion, time_step, temperature);
         let answer = normal.respond(&along, columns);
         let elastic: &NormalResponse<R> = answer.borrow();
         let mut coefficient = elastic.dashpot;

@@ -11,6 +11,41 @@ use pulvis_math::Real;
 pub struct Pair<R = f64> {
     inverse_reduced_mass: R,
     inverse_harmonic_radius: R,
+    quantities: Quantities<R>,
+}
+
+/// The largest number of particle quantities that a law may read.
+pub const MOST_QUANTITIES: usize = 2;
+
+/// The quantities of both bodies that laws [ask for](crate::catalogue::LawEntry::particle_quantities), in SI; zero where
+/// none does, and for walls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantities<R = f64> {
+    /// Those of the normal law, each of body i and of body j.
+    pub normal: [[R; 2]; MOST_QUANTITIES],
+    /// Those of the attraction.
+    pub attraction: [[R; 2]; MOST_QUANTITIES],
+}
+
+// Not derived: what is derived is not inlined by force.
+impl<R: Real> Default for Quantities<R> {
+    #[inline(always)]
+    fn default() -> Self {
+        let zero = [[R::zero(); 2]; MOST_QUANTITIES];
+        Self { normal: zero, attraction: zero }
+    }
+}
+
+impl<R: Real> Quantities<R> {
+    /// Those of one pair a lane, from its index.
+    pub fn from_fn(of: impl Fn(usize) -> Quantities<f64>) -> Self {
+        let each = |role: fn(&Quantities<f64>) -> &[[f64; 2]; MOST_QUANTITIES]| {
+            std::array::from_fn(|quantity| {
+                std::array::from_fn(|body| R::from_fn(|lane| role(&of(lane))[quantity][body]))
+            })
+        };
+        Self { normal: each(|all| &all.normal), attraction: each(|all| &all.attraction) }
+    }
 }
 
 impl<R: Real> Pair<R> {
@@ -31,14 +66,44 @@ impl<R: Real> Pair<R> {
     /// bits as of [`wall`](Self::wall).
     #[inline(always)]
     pub fn wall_from_inverses(inverse_mass: R, inverse_radius: R) -> Self {
-        Self { inverse_reduced_mass: inverse_mass, inverse_harmonic_radius: R::splat(0.5) * inverse_radius }
+        Self::from_sums(inverse_mass, inverse_radius)
     }
 
     /// Two spheres, from the sum of one over their masses [1/kg] and that of one over their radii [1/m]. The
     /// same bits as of [`spheres`](Self::spheres).
     #[inline(always)]
     pub fn from_sums(inverse_masses: R, inverse_radii: R) -> Self {
-        Self { inverse_reduced_mass: inverse_masses, inverse_harmonic_radius: R::splat(0.5) * inverse_radii }
+        Self {
+            inverse_reduced_mass: inverse_masses,
+            inverse_harmonic_radius: R::splat(0.5) * inverse_radii,
+            quantities: Quantities::default(),
+        }
+    }
+
+    /// Sets the sums of one over the masses [1/kg] and of one over the radii [1/m]; the quantities stay.
+    #[inline(always)]
+    pub fn set_sums(&mut self, inverse_masses: R, inverse_radii: R) {
+        self.inverse_reduced_mass = inverse_masses;
+        self.inverse_harmonic_radius = R::splat(0.5) * inverse_radii;
+    }
+
+    /// The same bodies with the quantities that laws ask for.
+    #[must_use]
+    #[inline(always)]
+    pub fn with_quantities(self, quantities: Quantities<R>) -> Self {
+        Self { quantities, ..self }
+    }
+
+    /// The quantities that laws ask for.
+    #[inline(always)]
+    pub fn quantities(&self) -> &Quantities<R> {
+        &self.quantities
+    }
+
+    /// The same, to be set.
+    #[inline(always)]
+    pub fn quantities_mut(&mut self) -> &mut Quantities<R> {
+        &mut self.quantities
     }
 
     /// One pair a lane, from its index.
@@ -46,6 +111,7 @@ impl<R: Real> Pair<R> {
         Self {
             inverse_reduced_mass: R::from_fn(|lane| pair(lane).inverse_reduced_mass),
             inverse_harmonic_radius: R::from_fn(|lane| pair(lane).inverse_harmonic_radius),
+            quantities: Quantities::from_fn(|lane| pair(lane).quantities),
         }
     }
 

@@ -51,7 +51,7 @@ impl<'a, R: Real> Resistance<'a, R> {
         normal: &NormalResponse<R>,
         friction_reference: R,
     ) -> Self {
-        let ContactInputs { pair, motion, time_step } = inputs;
+        let ContactInputs { pair, motion, time_step, .. } = inputs;
         let in_contact = normal.in_contact;
         let overlap = motion.overlap.keep_where(in_contact);
         let dt = R::splat(time_step);

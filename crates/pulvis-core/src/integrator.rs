@@ -42,6 +42,7 @@ impl<'a> Columns<'a> {
             velocity: self.velocity_predicted,
             angular_velocity_mid: self.angular_velocity,
             angular_velocity: self.angular_velocity_predicted,
+            quantities: &[],
         }
     }
 }

@@ -26,7 +26,7 @@ pub use contacts::{
 pub use ledger::Ledger;
 pub use particles::{MaterialIndex, Particle, ParticleId, Particles, Vectors};
 pub use phases::Phases;
-pub use pulvis_boundary::{Background, Domain, Region};
+pub use pulvis_boundary::{Background, Domain, Region, TemperatureProgram};
 pub use pulvis_math::InstructionSet;
 pub use simulation::{
     Alarm, Limits, ListState, ParticleState, Setup, SetupError, Simulation, State, StateError, StepError,

@@ -1,12 +1,13 @@
 //! What every attraction at a distance promises (see `pulvis_contact::noncontact::NonContactLaw`).
 
+use pulvis_contact::catalogue::Law;
 use pulvis_contact::noncontact::NonContactResponse;
-use pulvis_contact::{NonContact, NormalMotion, Pair};
+use pulvis_contact::{Linear, NonContact, NormalMotion, Pair};
 use pulvis_math::{F64Array, Real};
 
 use crate::draw::Draw;
 use crate::for_each_case;
-use crate::parameters::{random_law, random_pair};
+use crate::parameters::{random_law, random_pair, with_random_quantities};
 
 /// Checks every non-contact law of the catalogue with `count` random sets of parameters.
 pub fn check_all(count: u64) {
@@ -33,9 +34,15 @@ struct Bench {
     span: f64,
 }
 
+/// A random pair with the quantities that the law reads.
+fn random_pair_of(law: &NonContact, draw: &mut Draw) -> Pair {
+    let pair = random_pair(draw);
+    with_random_quantities(pair, &Linear::ENTRY, Some(law.entry()), draw)
+}
+
 impl Bench {
     fn new(law: NonContact, draw: &mut Draw) -> Self {
-        let pair = random_pair(draw);
+        let pair = random_pair_of(&law, draw);
         let range = law.interaction_range(&pair);
         assert!(range >= 0.0 && range.is_finite(), "{law:?}: acts at a distance of {range} m");
         Self { law, pair, span: if range > 0.0 { range } else { draw.log_between(1e-8, 1e-4) } }
@@ -141,7 +148,7 @@ impl Bench {
     fn lanes_give_the_bits_of_the_plain_number(&self, draw: &mut Draw) {
         type Eight = F64Array<8>;
         let law = self.law;
-        let pairs: [Pair; 8] = std::array::from_fn(|_| random_pair(draw));
+        let pairs: [Pair; 8] = std::array::from_fn(|_| random_pair_of(&law, draw));
         let lanes = Pair::<Eight>::from_fn(|lane| pairs[lane]);
         let mut plain = vec![self.virgin(); 8];
         let mut memory = vec![Eight::zero(); self.virgin().len()];

@@ -3,8 +3,8 @@
 use pulvis_contact::catalogue::{
     InvalidParameter, Kind, LawEntry, Parameter, Presence, Range, Value, Values,
 };
-use pulvis_contact::{ExpectedLoading, Friction, Pair, friction};
-use pulvis_math::elementary;
+use pulvis_contact::{ExpectedLoading, Friction, Pair, Quantities, friction};
+use pulvis_math::{Dimension, elementary};
 
 use crate::draw::Draw;
 
@@ -153,6 +153,39 @@ pub fn pair_of((mass_i, radius_i): (f64, f64), body_j: Option<(f64, f64)>) -> Pa
 pub fn random_pair(draw: &mut Draw) -> Pair {
     let (body_i, body_j) = random_bodies(draw);
     pair_of(body_i, body_j)
+}
+
+/// The pair with random values of the particle quantities that the two laws along the line of centres read.
+pub fn with_random_quantities(
+    pair: Pair,
+    normal: &LawEntry,
+    attraction: Option<&LawEntry>,
+    draw: &mut Draw,
+) -> Pair {
+    let length = pair.harmonic_radius();
+    let mut random = |quantity: &Parameter| -> [f64; 2] {
+        let Kind::Number { dimension, range, .. } = quantity.kind else { panic!("no number: {quantity:?}") };
+        let size = if dimension == Dimension::LENGTH {
+            length * draw.log_between(1e-5, 0.05)
+        } else if dimension == Dimension::CHARGE {
+            draw.log_between(1e-13, 1e-10)
+        } else {
+            draw.log_between(0.1, 10.0)
+        };
+        std::array::from_fn(|_| {
+            let value = size * draw.log_between(0.3, 3.0) * if draw.chance(0.5) { 1.0 } else { -1.0 };
+            if range.holds(value) { value } else { -value }
+        })
+    };
+    let mut quantities = Quantities::default();
+    for (slot, quantity) in quantities.normal.iter_mut().zip(normal.particle_quantities) {
+        *slot = random(quantity);
+    }
+    let of_attraction = attraction.map_or(&[][..], |entry| entry.particle_quantities);
+    for (slot, quantity) in quantities.attraction.iter_mut().zip(of_attraction) {
+        *slot = random(quantity);
+    }
+    pair.with_quantities(quantities)
 }
 
 /// The loading of contacts that are pressed to an overlap [m]: laws without a steepest slope take their stiffness from

@@ -82,6 +82,16 @@ fn describe(entry: &LawEntry, whole: bool) -> Result<String, Failure> {
             }
         }
     }
+    for quantity in entry.particle_quantities {
+        let allowed = quantity.allowed();
+        let _ = writeln!(
+            text,
+            "\nReads of each particle\n  {} [{}]  {}, {allowed}",
+            quantity.name,
+            quantity.unit(),
+            quantity.meaning
+        );
+    }
     let memory = if entry.memory.is_empty() { "none".to_owned() } else { entry.memory.join(", ") };
     let _ = writeln!(text, "\nMemory of a contact\n  {memory}");
     let _ = writeln!(text, "\nVerified against\n  {}", entry.closed_form);

@@ -87,6 +87,7 @@ per area: k_n = K_n A, k_s = K_s A, k_b = K_n I, k_o = K_s J;  A = π r², I = A
             .or(f64::INFINITY)
             .or_infinite(),
         ],
+        particle_quantities: &[],
         memory: COLUMNS,
         closed_form: "frequency and breaking speed of two bonded spheres, stiffness of a cantilever of bonded spheres (law_bond, bonded_beam)",
         example: "law = \"elastic-brittle\"\nnormal_stiffness = \"1e3 N/m\"\nshear_stiffness = \"500 N/m\"\nbending_stiffness = \"1e-4 J\"\ntorsion_stiffness = \"5e-5 J\"\ntensile_strength = \"1e-3 N\"\nshear_strength = \"2e-3 N\"",

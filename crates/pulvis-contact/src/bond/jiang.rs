@@ -87,6 +87,7 @@ R_r = f_r a12 x (ln((R_nc + R_nt)/x))^n_r            a12: harmonic mean of the r
                 "exponent of the moment strength"
             ),
         ],
+        particle_quantities: &[],
         memory: COLUMNS,
         closed_form: "shear strength at two normal forces (law_bond)",
         example: "law = \"jiang\"\nnormal_stiffness = \"1e3 N/m\"\nshear_stiffness = \"500 N/m\"\nbending_stiffness = \"1e-4 J\"\ntensile_strength = \"1e-3 N\"\ncompressive_strength = \"1e-2 N\"\nshear_factor = 1.38\nshear_exponent = 0.59\nmoment_factor = 0.8\nmoment_exponent = 0.6",

@@ -9,6 +9,7 @@ pub(super) static ENTRY: LawEntry = LawEntry {
     equations: "f = 0",
     source: "none needed",
     parameters: &[],
+    particle_quantities: &[],
     memory: &[],
     closed_form: "the contact is that of its other laws",
     example: "law = \"none\"",

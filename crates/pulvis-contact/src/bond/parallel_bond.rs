@@ -55,6 +55,7 @@ A = π r²,  I = A r²/4,  J = 2 I;  r: bond_radius, or radius_ratio times the s
             .or(f64::INFINITY)
             .or_infinite(),
         ],
+        particle_quantities: &[],
         memory: COLUMNS,
         closed_form: "stress of a bent and of a twisted bond when it breaks (law_bond)",
         example: "law = \"parallel-bond\"\nnormal_stiffness_per_area = \"1e9 Pa/m\"\nshear_stiffness_per_area = \"4e8 Pa/m\"\nradius_ratio = 0.5\ntensile_strength = \"1e3 Pa\"\nshear_strength = \"2e3 Pa\"",

@@ -261,6 +261,9 @@ pub struct LawEntry {
     pub source: &'static str,
     /// The parameters, in the order of the documentation.
     pub parameters: &'static [Parameter],
+    /// Quantities of each particle that it reads, numbers that have a column of this name; at most
+    /// [`MOST_QUANTITIES`](crate::pair::MOST_QUANTITIES). Laws along the line of centres only.
+    pub particle_quantities: &'static [Parameter],
     /// The columns of memory that each contact carries, with their units.
     pub memory: &'static [&'static str],
     /// The closed form that the law is verified against, and the test that does it.

@@ -39,6 +39,7 @@ static ENTRY: LawEntry = LawEntry {
         Range::NonNegative,
         "coefficient of rolling friction",
     )],
+    particle_quantities: &[],
     memory: &["rolling_force_x [N]", "rolling_force_y [N]", "rolling_force_z [N]"],
     closed_form: "a rolling sphere on a plane slows down by μ_r L g/(a (1 + 2/5)), and any path costs work",
     example: "law = \"constant-torque\"\nmu_r = 0.05",

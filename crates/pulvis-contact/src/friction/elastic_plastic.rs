@@ -61,6 +61,7 @@ f  = −T − γ_r v_r            below the limit;  f = −T at it",
         )
         .or(0.0),
     ],
+    particle_quantities: &[],
     memory: &["rolling_force_x [N]", "rolling_force_y [N]", "rolling_force_z [N]", "rolling_energy [J]"],
     closed_form: "frequency of the rolling oscillation, L √(k_r (1/I_i + 1/I_j)), and closed cycles of pressing and rolling cost work",
     example: "law = \"elastic-plastic\"\nmu_r = 0.1",

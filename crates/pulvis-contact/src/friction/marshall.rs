@@ -57,6 +57,7 @@ M_v = (γ_t a²/2) dφ/dt            dashpot, in series with the slider
         )
         .or(0.0),
     ],
+    particle_quantities: &[],
     memory: &["torsion_force [N]", "torsion_energy [J]"],
     closed_form: "frequency of the torsion oscillation, √(4 G* a³ (1/I_i + 1/I_j)), and closed cycles of pressing and twisting cost work",
     example: "law = \"marshall\"\neffective_shear_modulus = \"3e7 Pa\"\nmu = 0.5",

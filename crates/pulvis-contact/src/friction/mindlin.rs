@@ -85,6 +85,7 @@ dT  = 8 G* a ds                  tangential force T of the displacement s
             "what becomes of the tangential force T when the contact area shrinks",
         ),
     ],
+    particle_quantities: &[],
     memory: &[
         "tangential_force_x [N]",
         "tangential_force_y [N]",

@@ -10,6 +10,7 @@ const fn described(role: Role) -> LawEntry {
         equations: "f = 0",
         source: "none needed",
         parameters: &[],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "the motion is not resisted",
         example: "law = \"none\"",

@@ -88,6 +88,7 @@ macro_rules! described {
                 )
                 .optional(),
             ],
+            particle_quantities: &[],
             memory: $memory,
             closed_form: $check,
             example: $example,

@@ -75,6 +75,7 @@ T    ≤ max(T_c, μ (P + 2 F_c))      before that;  T ≤ μ (P + 2 F_c) afterw
         )
         .or(0.0),
     ],
+    particle_quantities: &[],
     memory: &[
         "tangential_force_x [N]",
         "tangential_force_y [N]",

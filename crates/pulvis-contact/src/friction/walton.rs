@@ -86,6 +86,7 @@ published  dT/ds = K₀ (1 − (T − T*)/(μ N − T*))^g   along T,  T* = T wh
             "where the stiffness starts again from K₀",
         ),
     ],
+    particle_quantities: &[],
     memory: &[
         "tangential_force_x [N]",
         "tangential_force_y [N]",

@@ -55,6 +55,7 @@ U   = −(A_H R/6) (s_c − s)²/((s + z0) (s_c + z0)²) for δ ≤ 0,  U(0) + f
                 "distance at which the attraction ends, at least 10 z0; 30 z0 leave 94 % of the work",
             ),
         ],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "pull-off force of published examples, work between two distances (tests of the law)",
         example: "law = \"hamaker\"\nhamaker = \"6.5e-20 J\"\nz0 = \"4e-10 m\"\ncutoff = \"2e-8 m\"",

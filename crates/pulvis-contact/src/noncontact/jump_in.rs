@@ -35,6 +35,7 @@ f   = −k_c^a δ − f_a             after a touch, for δ_a < δ < 0,  δ_a = 
 f   = 0                          for δ ≤ δ_a; the touch is forgotten",
         source: "Singh, Magnanimo & Luding, arXiv:1503.03720, eq. 15",
         parameters: reversible::PARAMETERS,
+        particle_quantities: &[],
         memory: &["touched [1]"],
         closed_form: "pull-off efficiency ε_o and v_f^a in pulvis_contact::theory (S1 eqs. 18, 19)",
         example: "law = \"jump-in\"\nf_a = \"1e-5 N\"\nkc_a = \"50 N/m\"",

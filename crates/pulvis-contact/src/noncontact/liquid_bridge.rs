@@ -74,6 +74,7 @@ S_c = (1 + θ/2) V^(1/3)                   rupture;  R_w = 2 a_i a_j/(a_i + a_j)
             )
             .or(0.0),
         ],
+        particle_quantities: &[],
         memory: &["bridge [1]"],
         closed_form: "force, rupture distance and rupture work of published examples (tests of the law)",
         example: "law = \"liquid-bridge\"\nvolume = \"1e-12 m^3\"\nsurface_tension = \"0.072 N/m\"\ncontact_angle = 0.35",

@@ -8,12 +8,14 @@ use crate::kinematics::NormalMotion;
 use crate::memory::{self, Columns, Memory};
 use crate::pair::Pair;
 
+mod coulomb;
 mod hamaker;
 mod jump_in;
 mod liquid_bridge;
 mod none;
 mod reversible;
 
+pub use coulomb::Coulomb;
 pub use hamaker::Hamaker;
 pub use jump_in::JumpIn;
 pub use liquid_bridge::LiquidBridge;
@@ -55,6 +57,12 @@ pub trait NonContactLaw: Law {
 
     /// The steepest slope |df/dδ| [N/m], zero for a force that only jumps.
     fn max_stiffness(&self, pair: &Pair<f64>) -> f64;
+
+    /// The same law knowing the `largest` size of a particle quantity by its name, if its stiffness depends on one.
+    #[must_use]
+    fn bounded_by(self, _largest: &dyn Fn(&str) -> f64) -> Self {
+        self
+    }
 
     /// Whether the law acts on bodies that approach each other before they touch.
     fn acts_on_approach(&self) -> bool;
@@ -121,6 +129,12 @@ macro_rules! noncontact_laws {
                 match self { $(Self::$law(law) => law.max_stiffness(pair),)* }
             }
 
+            /// See [`NonContactLaw::bounded_by`].
+            #[must_use]
+            pub fn bounded_by(&self, largest: &dyn Fn(&str) -> f64) -> Self {
+                match self { $(Self::$law(law) => Self::$law(law.bounded_by(largest)),)* }
+            }
+
             /// See [`NonContactLaw::acts_on_approach`].
             pub fn acts_on_approach(&self) -> bool {
                 match self { $(Self::$law(law) => law.acts_on_approach(),)* }
@@ -135,4 +149,4 @@ macro_rules! noncontact_laws {
 }
 
 // The list of non-contact laws: a new one is its file and its name here.
-noncontact_laws![None, Reversible, JumpIn, Hamaker, LiquidBridge];
+noncontact_laws![None, Reversible, JumpIn, Hamaker, LiquidBridge, Coulomb];

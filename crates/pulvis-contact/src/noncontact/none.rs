@@ -19,6 +19,7 @@ impl Law for None {
         equations: "f = 0",
         source: "none needed",
         parameters: &[],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "the force is zero (unit test)",
         example: "law = \"none\"",

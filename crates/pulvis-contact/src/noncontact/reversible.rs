@@ -50,6 +50,7 @@ f   = −k_c^a δ − f_a             for δ_a < δ ≤ 0,  δ_a = −f_a/k_c^a
 f   = 0                          for δ ≤ δ_a",
         source: "Singh, Magnanimo & Luding, arXiv:1503.03720, eq. 14",
         parameters: PARAMETERS,
+        particle_quantities: &[],
         memory: &[],
         closed_form: "pull-in and pull-off efficiencies ε_i, ε_o in pulvis_contact::theory (S1 eqs. 17, 18)",
         example: "law = \"reversible\"\nf_a = \"1e-5 N\"\nkc_a = \"50 N/m\"",

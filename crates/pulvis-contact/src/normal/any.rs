@@ -82,6 +82,18 @@ impl Normal {
         self.accept(Timed)
     }
 
+    /// See [`NormalLaw::NEEDS_TEMPERATURE`].
+    pub fn needs_temperature(&self) -> bool {
+        struct Heated;
+        impl NormalLawVisitor for Heated {
+            type Output = bool;
+            fn visit<N: NormalLaw>(self, _law: &N) -> bool {
+                N::NEEDS_TEMPERATURE
+            }
+        }
+        self.accept(Heated)
+    }
+
     /// See [`NormalLaw::COMMON_SLIDING`].
     pub fn common_sliding(&self) -> CommonFriction {
         struct Sliding;

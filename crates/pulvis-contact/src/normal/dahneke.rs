@@ -55,6 +55,7 @@ U   = (8/15) E* √R δ^(5/2) − F_0 δ (1 + c δ/(2 z0))",
             )
             .or(2.0),
         ],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "force of published examples, least force and its overlap (tests of the law)",
         example: "law = \"dahneke\"\neffective_modulus = \"1e9 Pa\"\nhamaker = \"6.5e-20 J\"\nz0 = \"4e-10 m\"",

@@ -47,6 +47,7 @@ a   = √(R δ)                           contact radius;  friction refers to F 
 U   = (8/15) E* √R δ^(5/2) − 2 π Γ R δ",
         source: "Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53, 314 (1975)",
         parameters: &[EFFECTIVE_MODULUS, WORK_OF_ADHESION],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "force and pull-off of published examples; a collision without loss (tests of the law)",
         example: "law = \"dmt\"\neffective_modulus = \"1e9 Pa\"\nwork_of_adhesion = \"0.1 N/m\"",

@@ -149,6 +149,7 @@ k1 δ^n = k1 δ (δ/ℓ)^(n−1),  k_adh δ^x = k_adh δ (δ/ℓ)^(x−1)",
             )
             .or(1.0),
         ],
+        particle_quantities: &[],
         memory: &["plastic_overlap [m]", "adhesion_stiffness [N/m^x]"],
         closed_form: "restitution without adhesion in pulvis_contact::theory::eepa; whole cycles (law_eepa)",
         example: "law = \"eepa\"\nk1 = \"1e6 N/m\"\nlambda_p = 0.5\nsurface_energy = \"1 N/m\"",

@@ -41,6 +41,7 @@ F   = (4/3) E* √R δ^(3/2)        for δ > 0,  R = a_i a_j/(a_i + a_j)
 a   = √(R δ),  U = (2/5) F δ     contact radius and potential",
         source: "Hertz, J. reine angew. Math. 92, 156 (1882); Johnson, Contact Mechanics (1985), eqs. 4.22-4.23",
         parameters: &[EFFECTIVE_MODULUS],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "largest overlap, force and duration of a collision in pulvis_contact::theory::hertz",
         example: "law = \"hertz\"\neffective_modulus = \"1e8 Pa\"",

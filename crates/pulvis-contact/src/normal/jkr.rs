@@ -54,6 +54,7 @@ attached from δ ≥ 0 until δ ≤ δ_sep = −3 a_sep²/R,  a_sep = (π Γ R²
 F_c = (3/2) π Γ R                      pull-off force;  friction refers to F + 2 F_c",
         source: "Johnson, Kendall & Roberts, Proc. R. Soc. Lond. A 324, 301 (1971)",
         parameters: &[EFFECTIVE_MODULUS, WORK_OF_ADHESION],
+        particle_quantities: &[],
         memory: &["cube_root_radius [m^(1/3)]"],
         closed_form: "pull-off, separation and restitution in pulvis_contact::theory::jkr",
         example: "law = \"jkr\"\neffective_modulus = \"1e9 Pa\"\nwork_of_adhesion = \"0.1 N/m\"",

@@ -97,6 +97,7 @@ a   = √(R δ)                                contact radius;  friction refers 
             )
             .or(0.0),
         ],
+        particle_quantities: &[],
         memory: &["relaxing [N m]", "depth [m]"],
         closed_form: "relaxation of the force at constant overlap; fast and slow collisions as of hertz (tests of the law)",
         example: "law = \"lee-radok\"\nmodulus_instant = \"1e8 Pa\"\nmodulus_relaxed = \"2e7 Pa\"\nrelaxation_time = \"1e-3 s\"",

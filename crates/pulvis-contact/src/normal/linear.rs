@@ -114,6 +114,7 @@ e   = exp(−π h/ω),  t_c = π/ω    h = γ₀/(2 m_r),  ω² = k/m_r − h²"
             )
             .optional(),
         ],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "restitution, duration and largest overlap in pulvis_contact::theory (S1 eqs. 3, 4)",
         example: "law = \"linear\"\nk = \"100 N/m\"\ngamma_0 = \"5e-3 kg/s\"",

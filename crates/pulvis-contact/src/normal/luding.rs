@@ -134,6 +134,7 @@ with φ_f': kp' = k1 + AB/2 + √((AB/2)² + k1 AB) in place of kp, A = (kp − 
                 "how k2 grows with the largest overlap",
             ),
         ],
+        particle_quantities: &[],
         memory: &["overlap_max [m]"],
         closed_form: "restitution, sticking overlap, largest overlap and duration in pulvis_contact::theory (S1 eqs. 21-39)",
         example: "law = \"luding\"\nk1 = \"100 N/m\"\nkp = \"500 N/m\"\nkc = \"100 N/m\"\nphi_f = 0.05",

@@ -14,6 +14,7 @@ use crate::pair::Pair;
 mod adhesive_curve;
 mod any;
 mod attracted_spheres;
+mod core_shell;
 mod dahneke;
 mod dmt;
 mod eepa;
@@ -25,7 +26,10 @@ mod linear;
 mod luding;
 mod molerus;
 mod pasha;
+mod rathbone;
 mod response;
+mod sinter_luding;
+mod sinter_overlap;
 mod thornton_ning;
 mod tomas;
 mod viscoelastic_jkr;
@@ -33,6 +37,7 @@ mod walton_braun;
 mod walton_braun_variable;
 mod walton_johnson;
 
+pub use core_shell::CoreShell;
 pub use dahneke::Dahneke;
 pub use dmt::Dmt;
 pub use eepa::{Eepa, EepaMemory};
@@ -44,7 +49,10 @@ pub use linear::Linear;
 pub use luding::{Interpolation, Luding, LudingMemory};
 pub use molerus::{Molerus, MolerusMemory};
 pub use pasha::{Pasha, PashaMemory};
+pub use rathbone::{Rathbone, RathboneMemory};
 pub use response::NormalResponse;
+pub use sinter_luding::{SinterLuding, SinterLudingMemory};
+pub use sinter_overlap::SinterOverlap;
 pub use thornton_ning::{ThorntonNing, ThorntonNingMemory};
 pub use tomas::{Tomas, TomasMemory};
 pub use viscoelastic_jkr::{ViscoelasticJkr, ViscoelasticJkrMemory};
@@ -105,6 +113,9 @@ pub trait NormalLaw: Law + Listed {
     /// Whether the force depends on the rate or on time beside what [`dashpot`](Self::dashpot) says: then a path without
     /// times says too little.
     const DEPENDS_ON_TIME: bool = false;
+
+    /// Whether the law reads the temperature, which must then be given.
+    const NEEDS_TEMPERATURE: bool = false;
 
     /// The law against sliding that common contacts of this law have.
     const COMMON_SLIDING: CommonFriction = CommonFriction::SpringSlider;
@@ -292,6 +303,5 @@ macro_rules! normal_laws {
 normal_laws![
     common: Hertz, Linear, Luding;
     others:
-        Dahneke, Dmt, Eepa, Jkr, Kempton, LeeRadok, Molerus, Pasha, ThorntonNing, Tomas, ViscoelasticJkr,
-        WaltonBraun, WaltonBraunVariable, WaltonJohnson
+        CoreShell, Dahneke, Dmt, Eepa, Jkr, Kempton, LeeRadok, Molerus, Pasha, Rathbone, SinterLuding, SinterOverlap, ThorntonNing, Tomas, ViscoelasticJkr, WaltonBraun, WaltonBraunVariable, WaltonJohnson
 ];

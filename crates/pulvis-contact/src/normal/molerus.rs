@@ -92,6 +92,7 @@ F_H = (1 + κ) F_H0 + κ F_N          pull-off force,  κ = p_vdw/p_f,  F_N = k1
                 "pull-off force of a contact that was never pressed",
             ),
         ],
+        particle_quantities: &[],
         memory: &["force_free_overlap [m]", "pull_off_force [N]"],
         closed_form: "pull-off force after a load (law_plastic)",
         example: "law = \"molerus\"\nk1 = \"100 N/m\"\nk2 = \"400 N/m\"\nvdw_pressure = \"3e7 Pa\"\nyield_pressure = \"3e8 Pa\"\nf_h0 = \"1e-6 N\"",

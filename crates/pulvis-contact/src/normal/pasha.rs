@@ -110,6 +110,7 @@ f    = −f_cp + k_e (δ_cp − δ)   beyond, to −(5/9) f_cp, where the bodies
                 "force at which the contact begins to flow",
             ),
         ],
+        particle_quantities: &[],
         memory: &["plastic_overlap [m]", "attached [1]"],
         closed_form: "restitution, pull-off and detachment in pulvis_contact::theory::pasha",
         example: "law = \"pasha\"\nk_e = \"1e4 N/m\"\nk_p = \"2e3 N/m\"\nk_cp = \"500 N/m\"\nf_ce = \"1e-4 N\"\nf_y = \"5e-4 N\"",

@@ -56,6 +56,7 @@ f = max(k2 (δ − δ_0), 0)    un-/re-loading,  δ_0 = (1 − k1/k2) D
 e = √(k1/k2)                restitution at any speed",
         source: "Walton & Braun, J. Rheol. 30, 949 (1986); Singh, Magnanimo & Luding, arXiv:1503.03720, eq. 6",
         parameters: &[K1, K2],
+        particle_quantities: &[],
         memory: &["overlap_max [m]"],
         closed_form: "restitution and duration in pulvis_contact::theory::walton_braun",
         example: "law = \"walton-braun\"\nk1 = \"100 N/m\"\nk2 = \"400 N/m\"",

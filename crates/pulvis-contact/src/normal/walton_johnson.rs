@@ -103,6 +103,7 @@ f    = −f_po + k_tail (δ_t − δ)    tail to zero;  re-loading from there al
             .or(0.0),
             stiffness("k_tail", "k_tail", "slope of the tensile tail, without its sign"),
         ],
+        particle_quantities: &[],
         memory: &["force_free_overlap [m]", "pull_off_force [N]", "attached [1]"],
         closed_form: "restitution, pull-off and end of the tail in pulvis_contact::theory::walton_johnson",
         example: "law = \"walton-johnson\"\nk1 = \"100 N/m\"\nk2 = \"400 N/m\"\nf_0 = \"1e-4 N\"\nkappa = 0.05\nk_tail = \"50 N/m\"",

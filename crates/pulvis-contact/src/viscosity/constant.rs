@@ -33,6 +33,7 @@ impl Law for Constant {
             Range::NonNegative,
             "dashpot coefficient",
         )],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "restitution exp(−π h/ω) of an elastic contact in pulvis_contact::theory (S1 eq. 4)",
         example: "law = \"constant\"\ngamma_0 = \"5e-3 kg/s\"",

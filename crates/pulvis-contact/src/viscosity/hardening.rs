@@ -36,6 +36,7 @@ impl Law for Hardening {
             Range::NonNegative,
             "dashpot coefficient of a fully plastic contact (k2 = kp)",
         )],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "equals the constant dashpot where k2 = kp: restitution exp(−π h/ω) of the linear law (S1 eq. 4)",
         example: "law = \"hardening\"\ngamma_0 = \"5e-3 kg/s\"",

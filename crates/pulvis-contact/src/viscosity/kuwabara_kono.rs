@@ -38,6 +38,7 @@ f = γ dδ/dt,  γ = A k                k: elastic stiffness, 2 E* a
             Range::NonNegative,
             "dissipative time of the material",
         )],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "series of the restitution of a Hertz collision in pulvis_contact::theory::hertz",
         example: "law = \"kuwabara-kono\"\ndissipative_time = \"1e-7 s\"",

@@ -46,6 +46,7 @@ impl Law for OverlapPower {
             )
             .or(0.5),
         ],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "1 − e² = 2 γ₀ (δ_max/δ_p)^q B((q+1)/2, 3/2)/(m_r ω) of a linear spring, first order in γ₀",
         example: "law = \"overlap-power\"\ngamma_0 = \"5e-3 kg/s\"\nexponent = 1.0",

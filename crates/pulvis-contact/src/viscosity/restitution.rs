@@ -46,6 +46,7 @@ impl Law for Restitution {
                 "reference stiffness (LIGGGHTS: k1)",
             ),
         ],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "restitution of the linear law in pulvis_contact::theory (S1 eq. 4)",
         example: "law = \"restitution\"\nrestitution = 0.9\nstiffness = \"100 N/m\"",

@@ -59,6 +59,7 @@ e = exp(−π α/√(5 − α²))              with `hertz`, at any speed",
             )
             .optional(),
         ],
+        particle_quantities: &[],
         memory: &[],
         closed_form: "restitution of a Hertz collision in pulvis_contact::theory::hertz",
         example: "law = \"tsuji\"\nrestitution = 0.8",

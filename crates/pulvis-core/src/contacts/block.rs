@@ -2,9 +2,10 @@
 
 use std::borrow::Cow;
 
-use pulvis_contact::{ContactEnergies, ContactModel, MemoryLayout, bond};
+use pulvis_contact::{ContactEnergies, ContactModel, MOST_QUANTITIES, MemoryLayout, Quantities, bond};
 use pulvis_math::{F64Array, Mask, Simd8};
 
+use crate::columns::NamedColumn;
 use crate::walls::{WallFeature, WallForce};
 
 use super::totals::GroupTotals;
@@ -44,6 +45,8 @@ pub(crate) struct ContactGroup {
     pub(crate) layout: MemoryLayout,
     /// How far beyond touching its contacts act [m].
     pub(crate) interaction_range: f64,
+    /// Where the quantities that the normal law and the attraction read stand among the columns of the particles.
+    quantity_columns: [[Option<usize>; MOST_QUANTITIES]; 2],
     /// The largest k/m_r of the last pass [1/s²], where the law does not bound its stiffness; otherwise zero.
     pub(crate) rate_squared: f64,
     pub(crate) partner: Partner,
@@ -97,6 +100,7 @@ impl ContactGroup {
         spare: Option<Self>,
     ) -> Self {
         let layout = model.memory_layout();
+        let quantity_columns = [[None; MOST_QUANTITIES]; 2];
         let rate_squared = 0.0;
         let (energies, totals) = (ContactEnergies::default(), GroupTotals::default());
         let Some(mut group) = spare else {
@@ -104,6 +108,7 @@ impl ContactGroup {
                 model,
                 layout,
                 interaction_range,
+                quantity_columns,
                 rate_squared,
                 partner,
                 rows: Vec::new(),
@@ -127,7 +132,49 @@ impl ContactGroup {
         group.crosses_boundary.clear();
         group.gap.clear();
         group.wall_forces.clear();
-        Self { model, layout, interaction_range, rate_squared, partner, energies, totals, ..group }
+        Self {
+            model,
+            layout,
+            interaction_range,
+            quantity_columns,
+            rate_squared,
+            partner,
+            energies,
+            totals,
+            ..group
+        }
+    }
+
+    /// Looks for the quantities that its laws read among the columns of the particles.
+    pub(crate) fn find_quantities(&mut self, columns: &[NamedColumn]) {
+        let entries = [self.model.normal.entry(), self.model.laws.noncontact.entry()];
+        for (slots, entry) in self.quantity_columns.iter_mut().zip(entries) {
+            for (slot, quantity) in slots.iter_mut().zip(entry.particle_quantities) {
+                *slot = columns.iter().position(|column| column.name == quantity.name);
+            }
+        }
+    }
+
+    /// Whether its laws read quantities of particles.
+    pub(crate) fn reads_quantities(&self) -> bool {
+        self.quantity_columns.iter().flatten().any(Option::is_some)
+    }
+
+    /// The quantities of the particles in two rows; zero of a wall, which has none.
+    pub(crate) fn quantities(
+        &self,
+        columns: &[NamedColumn],
+        first: usize,
+        second: Option<usize>,
+    ) -> Quantities {
+        let of = |slots: &[Option<usize>; MOST_QUANTITIES]| {
+            slots.map(|slot| {
+                let at = |row: usize| slot.map_or(0.0, |column| columns[column].values[row]);
+                [at(first), second.map_or(0.0, at)]
+            })
+        };
+        let [normal, attraction] = &self.quantity_columns;
+        Quantities { normal: of(normal), attraction: of(attraction) }
     }
 
     /// Number of neighbour pairs.

@@ -137,6 +137,7 @@ impl Listing {
             }));
             let mut group =
                 ContactGroup::new(model, around.interactions.range(index), Partner::Particle, spare.next());
+            group.find_quantities(&around.particles.columns);
             let number = memory.layout_number(&group);
             group.reserve(candidates.len());
             for block in candidates.chunks(WIDTH) {
@@ -165,7 +166,8 @@ impl Listing {
                 let range = interactions.range(interactions.group(material, wall.material));
                 let (group, number) =
                     groups[interactions.group(material, wall.material)].get_or_insert_with(|| {
-                        let group = ContactGroup::new(model, range, Partner::Wall, spare.next());
+                        let mut group = ContactGroup::new(model, range, Partner::Wall, spare.next());
+                        group.find_quantities(&particles.columns);
                         let number = memory.layout_number(&group);
                         (group, number)
                     });

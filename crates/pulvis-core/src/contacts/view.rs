@@ -157,7 +157,8 @@ impl<'a> Views<'a> {
                     angular_velocity_i_mid: angular_velocity(i),
                     angular_velocity_j_mid: angular_velocity(j),
                 };
-                let pair = Pair::spheres(mass[i], mass[j], radius[i], radius[j]);
+                let quantities = self.group.quantities(&particles.columns, i, Some(j));
+                let pair = Pair::spheres(mass[i], mass[j], radius[i], radius[j]).with_quantities(quantities);
                 let second = ContactPartner::Particle(particles.id[j]);
                 let centre_second = centre - separation;
                 Some(Seen { motion, pair, first, second, centre_first: centre, centre_second })
@@ -182,7 +183,9 @@ impl<'a> Views<'a> {
                     angular_velocity_j_mid: turning,
                 };
                 wall.move_against(&surface, centre, &mut motion);
-                let pair = Pair::from_sums(1.0 / mass[i], 1.0 / radius[i] + surface.mean_curvature);
+                let quantities = self.group.quantities(&particles.columns, i, None);
+                let pair = Pair::from_sums(1.0 / mass[i], 1.0 / radius[i] + surface.mean_curvature)
+                    .with_quantities(quantities);
                 let second = ContactPartner::Wall(index);
                 let centre_second = centre - surface.normal * surface.distance;
                 Some(Seen { motion, pair, first, second, centre_first: centre, centre_second })

@@ -1,5 +1,7 @@
 //! Quantities of particles by name.
 
+use pulvis_contact::catalogue::Value;
+
 use super::{SetupError, Simulation};
 use crate::columns::NamedColumn;
 
@@ -17,10 +19,45 @@ impl Simulation {
             values[row] = value;
         }
         let column = NamedColumn { values, ..column };
+        if self.is_read(&column.name) {
+            // Contacts look for their columns when they are listed, and store another energy.
+            self.switch(|simulation| {
+                simulation.replace_column(column);
+                simulation.renew_candidates();
+            });
+        } else {
+            self.replace_column(column);
+        }
+        Ok(())
+    }
+
+    fn replace_column(&mut self, column: NamedColumn) {
         let columns = &mut self.particles.columns;
         match columns.iter_mut().find(|known| known.name == column.name) {
             Some(known) => *known = column,
             None => columns.push(column),
+        }
+    }
+
+    /// Whether a law reads the quantity of this name.
+    fn is_read(&self, name: &str) -> bool {
+        let mut read = self.interactions.models().flat_map(|model| model.particle_quantities());
+        read.any(|quantity| quantity.name == name)
+    }
+
+    /// Whether particles have all quantities that laws read.
+    pub(super) fn check_quantities(&self) -> Result<(), SetupError> {
+        for quantity in self.interactions.models().flat_map(|model| model.particle_quantities()) {
+            let (name, unit) = (quantity.name.to_owned(), quantity.unit());
+            let Some(column) = self.particles.column(quantity.name) else {
+                let problem = format!("a law reads it [{unit}], but the particles do not have it");
+                return Err(SetupError::Column { name, problem });
+            };
+            let invalid = |value: &&f64| quantity.check(&Value::Number(**value)).is_err();
+            if let Some(value) = column.values.iter().find(invalid) {
+                let problem = format!("a value is {value} {unit}, expected {}", quantity.allowed());
+                return Err(SetupError::Column { name, problem });
+            }
         }
         Ok(())
     }
@@ -57,7 +94,7 @@ impl Simulation {
     }
 }
 
-fn check_column(column: &NamedColumn, count: usize) -> Result<(), SetupError> {
+pub(super) fn check_column(column: &NamedColumn, count: usize) -> Result<(), SetupError> {
     if column.name.is_empty() {
         return refuse(column, "a column without a name; give it one".into());
     }

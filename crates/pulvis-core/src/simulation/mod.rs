@@ -15,8 +15,10 @@ pub use errors::{Alarm, SetupError, StepError};
 pub use limits::Limits;
 pub use state::{ListState, ParticleState, State, StateError, WallRecord};
 
+use pulvis_contact::ROOM_TEMPERATURE;
 use pulvis_math::{InstructionSet, Packed4, Vector3, max_or_nan};
 
+use crate::columns::NamedColumn;
 use crate::contacts::{BrokenBonds, ContactTable, Interactions, MemoryStore};
 use crate::integrator::Kicked;
 use crate::ledger::Running;
@@ -26,7 +28,7 @@ use crate::phases::Phases;
 use crate::thread_pool::ThreadPool;
 use crate::walls::{FaceArea, Shape, Wall, WallFeature, WallForce, WallMotion, WallNow, WallState};
 use pulvis_boundary::Background;
-use pulvis_boundary::Domain;
+use pulvis_boundary::{Domain, TemperatureProgram};
 
 /// The initial state of a simulation.
 #[derive(Clone, Debug)]
@@ -56,6 +58,8 @@ pub struct Simulation {
     wall_starts: Vec<f64>,
     domain: Domain,
     background: Background,
+    /// The temperature over time, if laws are to know it.
+    temperature: Option<TemperatureProgram>,
     time_step: f64,
     step: u64,
     time: f64,
@@ -129,13 +133,25 @@ impl Simulation {
     /// Invalid numbers of particles, walls, gravity or drag; materials that can meet without a contact model; walls across a
     /// periodic direction; servo walls without an area; periods that are too short.
     pub fn new(setup: Setup) -> Result<Self, SetupError> {
+        Self::with_columns(setup, Vec::new())
+    }
+
+    /// The same with [columns](Self::set_column) of the particles from the start, which laws may read.
+    ///
+    /// # Errors
+    /// As of [`new`](Self::new); there is not one finite value for each particle, or a column lacks that a law reads.
+    pub fn with_columns(setup: Setup, columns: Vec<NamedColumn>) -> Result<Self, SetupError> {
         checks::check_setup(&setup)?;
+        for column in &columns {
+            columns::check_column(column, setup.particles.len())?;
+        }
         let Setup { particles, interactions, walls, domain, background, time_step } = setup;
         if !(time_step > 0.0 && time_step.is_finite()) {
             return Err(SetupError::TimeStep(time_step));
         }
         check_count(particles.len())?;
-        let particles = Particles::new(&particles);
+        let mut particles = Particles::new(&particles);
+        particles.columns = columns;
         let mut simulation =
             Self::without_list(particles, interactions, walls, domain, background, time_step);
         simulation.check_models()?;
@@ -172,6 +188,7 @@ impl Simulation {
             wall_starts: vec![0.0; walls.len()],
             domain,
             background,
+            temperature: None,
             time_step,
             step: 0,
             time: 0.0,
@@ -221,6 +238,7 @@ impl Simulation {
     }
 
     fn check_models(&self) -> Result<(), SetupError> {
+        self.check_quantities()?;
         let walls = self.walls.iter().map(|wall| wall.material);
         for &one in &self.materials {
             // A single particle of its material has nothing of its kind to meet.
@@ -331,6 +349,16 @@ impl Simulation {
     /// Space and its periods.
     pub fn domain(&self) -> &Domain {
         &self.domain
+    }
+
+    /// The temperature now [K], if there is one.
+    pub fn temperature(&self) -> Option<f64> {
+        self.temperature.as_ref().map(|program| program.at(self.time))
+    }
+
+    /// The temperature that laws are told at a time [K].
+    fn temperature_at(&self, time: f64) -> f64 {
+        self.temperature.as_ref().map_or(ROOM_TEMPERATURE, |program| program.at(time))
     }
 
     /// Simulated time [s].

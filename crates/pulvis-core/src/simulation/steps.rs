@@ -3,7 +3,7 @@
 use pulvis_math::min_or_nan;
 
 use super::{Simulation, StepError};
-use crate::contacts::{Advance, Sweep};
+use crate::contacts::{Advance, KinematicColumns, Sweep};
 use crate::integrator::{Columns, HalfKicks, Step};
 use crate::neighbours::Moved;
 use crate::phases::Stopwatch;
@@ -171,8 +171,11 @@ impl Simulation {
             self.walls_now.push(motion);
         }
         let time_step = if at_rest { 0.0 } else { self.time_step };
+        // Time goes on when all forces are there.
+        let temperature = self.temperature_at(self.time + 0.5 * time_step);
         let advance = Advance {
             time_step,
+            temperature,
             timed: self.phases.is_some(),
             images: self.domain.images(),
             ledger: self.accounting,
@@ -181,12 +184,13 @@ impl Simulation {
             pointers: self.pointers,
         };
         let step = self.step_of_rows(time_step);
+        let quantities = std::mem::take(&mut self.particles.columns);
         let columns = Columns::of(&mut self.particles);
         let (instructions, background) = (self.instructions, &self.background);
         let outcomes = Shared::new(&mut self.outcomes);
         let sweep = Sweep {
             forces_and_torques: columns.forces_and_torques,
-            moving: columns.moving(),
+            moving: KinematicColumns { quantities: &quantities, ..columns.moving() },
             walls: &self.walls_now,
             advance: &advance,
             keep: !onwards,
@@ -209,6 +213,7 @@ impl Simulation {
                 clock.lap(&mut outcome.seconds);
             }
         });
+        self.particles.columns = quantities;
         self.on_particles.fill(WallForce::default());
         self.contacts.add_wall_forces(&mut self.on_particles);
         self.outcomes.iter().map(|outcome| outcome.kicked.power).sum()

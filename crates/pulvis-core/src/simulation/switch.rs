@@ -8,7 +8,7 @@ use crate::contacts::Interactions;
 use crate::phases::Phases;
 use crate::thread_pool::ThreadPool;
 use crate::walls::WallMotion;
-use pulvis_boundary::Background;
+use pulvis_boundary::{Background, TemperatureProgram};
 
 /// Switching between stages. Every switch keeps the balance of the ledger: the change of the stored energy is booked as
 /// `switched`.
@@ -83,6 +83,12 @@ impl Simulation {
         Ok(())
     }
 
+    /// Sets the temperature over time, which laws that ask for it read from the next step on. Time is that of the
+    /// simulation. It is no part of a [state](crate::State): give it again after an import.
+    pub fn set_temperature(&mut self, program: Option<TemperatureProgram>) {
+        self.temperature = program;
+    }
+
     /// Sets another time step [s].
     pub fn set_time_step(&mut self, time_step: f64) -> Result<(), SetupError> {
         if !(time_step > 0.0 && time_step.is_finite()) {
@@ -138,7 +144,7 @@ impl Simulation {
         Ok(())
     }
 
-    fn switch(&mut self, change: impl FnOnce(&mut Self)) {
+    pub(super) fn switch(&mut self, change: impl FnOnce(&mut Self)) {
         let before = self.ledger().closing_error();
         change(self);
         self.evaluate_at_rest();

@@ -6,6 +6,7 @@ use super::{Bodies, CollisionCase, Incidence, Method};
 use crate::context::Reported;
 use crate::problem::Problem;
 use crate::reader::TableReader;
+use crate::surroundings::Surroundings;
 use pulvis_contact::ContactModel;
 
 /// A collision whose speed is not yet known.
@@ -15,6 +16,7 @@ pub(super) struct Draft {
     pub(super) method: Method,
     pub(super) contact: ContactModel,
     pub(super) contact_number: usize,
+    pub(super) surroundings: Surroundings,
 }
 
 /// Contact times for which a pair that stuck is followed at most: its motion has long been told by then.
@@ -71,6 +73,7 @@ impl Draft {
                 contact: self.contact,
                 contact_number: self.contact_number,
                 method: self.method,
+                surroundings: self.surroundings.clone(),
             })
         };
         match speed {

@@ -46,6 +46,7 @@ use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::{Name, Text};
+use crate::surroundings::{Surroundings, read_surroundings, read_temperature};
 use draft::Draft;
 use incidence::read_incidence;
 use pulvis_contact::ContactModel;
@@ -84,6 +85,8 @@ pub struct CollisionCase {
     pub contact_number: usize,
     /// How it is integrated.
     pub method: Method,
+    /// What the laws ask for beside the bodies.
+    pub surroundings: Surroundings,
 }
 
 impl CollisionCase {
@@ -168,10 +171,18 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
     let title = root.optional("title", Text);
     let collision = root.required_table("collision");
     let contacts = read_compared(&mut root).and_then(|contacts| without_stages(&root, contacts));
+    let temperature = read_temperature(&mut root);
     root.finish();
     let mut table = collision?;
     let bodies = read_bodies(&mut table);
     let at_wall = matches!(bodies, Ok(Bodies::Wall(_)));
+    let surroundings = match &contacts {
+        Ok(contacts) => {
+            let models = contacts.iter().map(|contact| &contact.contact.model);
+            read_surroundings(temperature, &mut table, at_wall, models)
+        }
+        Err(reported) => Err(*reported),
+    };
     let incidence = read_incidence(&mut table, at_wall);
     let method = read_method(&mut table, matches!(incidence, Ok(Some(_))));
     let time = QuantityRule::of(Dimension::TIME).at_least(0.0);
@@ -193,11 +204,12 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
         (method, _) => method,
     };
     let (bodies, incidence, method, speed) = (bodies?, incidence?, method?, speed?);
-    let (sweep, contacts) = (sweep?, contacts?);
+    let (sweep, contacts, surroundings) = (sweep?, contacts?, surroundings?);
     let mut cases = Ok(Vec::new());
     let mut time_after_sticking = time_after_sticking;
     for (contact_number, LabelledContact { contact, .. }) in contacts.iter().enumerate() {
-        let draft = Draft { bodies, incidence, method, contact: contact.model, contact_number };
+        let (contact, surroundings) = (surroundings.bound(&contact.model), surroundings.clone());
+        let draft = Draft { bodies, incidence, method, contact, contact_number, surroundings };
         time_after_sticking = time_after_sticking.and_then(|time| draft.can_follow(&table, time));
         cases = cases.and_then(|mut all: Vec<_>| {
             all.extend(draft.cases(&table, speed.as_ref(), &sweep, sweeping)?);

@@ -33,6 +33,7 @@ use crate::overrides::Replacement;
 use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::Text;
+use crate::surroundings::{Surroundings, read_surroundings, read_temperature};
 use path::read_path;
 use std::path::Path;
 
@@ -45,6 +46,8 @@ pub struct ProbeScenario {
     pub bodies: Bodies,
     /// The path.
     pub path: ProbePath,
+    /// What the laws ask for beside the bodies.
+    pub surroundings: Surroundings,
     /// The contact, and those that it is compared with.
     pub contacts: Vec<LabelledContact>,
 }
@@ -71,15 +74,30 @@ fn walk(mut root: TableReader<'_>) -> Result<ProbeScenario, Reported> {
     let title = root.optional("title", Text);
     let probe = root.required_table("probe");
     let contacts = read_compared(&mut root);
+    let temperature = read_temperature(&mut root);
     root.finish();
     let mut table = probe?;
     let bodies = read_bodies(&mut table);
     let path = read_path(&mut table, bodies.as_ref().ok());
+    let surroundings = match &contacts {
+        Ok(contacts) => {
+            let at_wall = matches!(bodies, Ok(Bodies::Wall(_)));
+            let models = contacts.iter().map(|contact| &contact.contact.model);
+            read_surroundings(temperature, &mut table, at_wall, models)
+        }
+        Err(reported) => Err(*reported),
+    };
     if let (Ok(bodies), Ok(path), Ok(contacts)) = (&bodies, &path, &contacts) {
         needs_no_time(&table, bodies, path, contacts)?;
     }
     table.finish();
-    Ok(ProbeScenario { title: title?, bodies: bodies?, path: path?, contacts: contacts? })
+    Ok(ProbeScenario {
+        title: title?,
+        bodies: bodies?,
+        path: path?,
+        surroundings: surroundings?,
+        contacts: contacts?,
+    })
 }
 
 /// Refuses a path without times for contacts whose forces depend on them.

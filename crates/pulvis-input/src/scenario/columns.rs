@@ -1,9 +1,11 @@
 //! Further quantities of particles: charge, temperature and whatever else.
 
+use super::particles::ParticleGroup;
 use crate::any_quantity::AnyQuantity;
 use crate::context::Reported;
 use crate::problem::Problem;
 use crate::reader::TableReader;
+use pulvis_contact::catalogue::{Kind, Parameter, Value};
 use pulvis_math::Dimension;
 
 /// A quantity that all particles of a group have.
@@ -57,6 +59,27 @@ pub(super) fn read_columns(
     // In the order of the first group.
     columns.sort_by_key(|own| first.iter().position(|column| column.name == own.name));
     Ok(columns)
+}
+
+/// Refuses a group of particles that lacks a quantity that a law reads, or has one that the law does not take.
+pub(super) fn needs_quantity(
+    root: &TableReader<'_>,
+    group: &ParticleGroup,
+    quantity: &Parameter,
+) -> Result<(), Reported> {
+    let (name, unit) = (quantity.name, quantity.unit());
+    let Some(column) = group.columns.iter().find(|column| column.name == name) else {
+        let expected = format!("the {} [{unit}] in [particles.columns], which a law reads", quantity.meaning);
+        let problem = Problem::MissingKey { key: format!("particles.columns.{name}"), expected };
+        return Err(root.refuse("particles", problem));
+    };
+    let of_kind = matches!(quantity.kind, Kind::Number { dimension, .. } if dimension == column.dimension);
+    if of_kind && quantity.check(&Value::Number(column.value)).is_ok() {
+        return Ok(());
+    }
+    let found = format!("`{name}` of particles is {:?} {}", column.value, column.dimension.unit());
+    let expected = format!("the {} in {unit}, {}", quantity.meaning, quantity.allowed());
+    Err(root.refuse("particles", Problem::rule(found, expected)))
 }
 
 fn read_column(table: &mut TableReader<'_>, name: &str) -> Result<ParticleColumn, Reported> {

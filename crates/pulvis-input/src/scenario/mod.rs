@@ -70,7 +70,8 @@ pub use particles::{ParticleGroup, VelocityPlan};
 pub use points::PointsError;
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};
 pub use pulvis_boundary::{
-    Background, Cuboid, Cylinder, CylinderSide, Domain, Plane, Region, WallMotion, WallShape,
+    Background, Cuboid, Cylinder, CylinderSide, Domain, Plane, Region, TemperatureProgram, WallMotion,
+    WallShape,
 };
 pub use pulvis_packing::{Lattice, RadiusDistribution};
 pub use stages::Stage;
@@ -101,6 +102,8 @@ pub struct Scenario {
     pub contacts: Vec<Contact>,
     /// Gravity and drag, before the first stage.
     pub background: Background,
+    /// Temperature over time, from the start of the first stage on; where it is given.
+    pub temperature: Option<TemperatureProgram>,
     /// The groups of particles, at least one.
     pub particles: Vec<ParticleGroup>,
     /// Lower and upper corner of the box, if there is one; its walls are among [`Self::walls`].

@@ -1,11 +1,12 @@
 //! The walk over a scenario file, first as it stands, then once more for every stage that switches.
 
+use super::columns::needs_quantity;
 use super::contacts::{Contact, MaterialUse, read_contacts};
 use super::domain::{read_background, read_domain};
 use super::limits::read_limits;
 use super::materials::{Material, read_materials};
 use super::output::read_output;
-use super::particles::{PlacedGroup, read_particles};
+use super::particles::{ParticleGroup, PlacedGroup, read_particles};
 use super::placement::check_placement;
 use super::stages::{PlannedStage, Stage, read_stages};
 use super::switches::switched;
@@ -18,12 +19,13 @@ use crate::error::InputErrors;
 use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::{Integer, Text};
-use pulvis_boundary::Background;
+use crate::surroundings::{needs_temperature, read_temperature};
+use pulvis_boundary::{Background, TemperatureProgram};
 use pulvis_contact::bond::Form;
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 15] = [
     "title",
     "seed",
     "gravity",
@@ -31,6 +33,7 @@ const KEYS: [&str; 14] = [
     "materials",
     "contacts",
     "background",
+    "temperature",
     "particles",
     "box",
     "walls",
@@ -86,7 +89,14 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         Ok((walls, groups))
     });
     let used = bodies.as_ref().map(|(walls, groups)| material_use(walls, groups)).ok();
-    let changing = Changing::read(&mut root, &materials, used.as_ref());
+    let temperature = read_temperature(&mut root);
+    let particles =
+        bodies.as_ref().map(|(_, groups)| groups.iter().map(|(group, _)| group).collect::<Vec<_>>());
+    let given = match (&particles, &temperature) {
+        (Ok(groups), Ok(temperature)) => Some(Given { groups, temperature: temperature.as_ref() }),
+        _ => None,
+    };
+    let changing = Changing::read(&mut root, &materials, used.as_ref(), given);
     root.finish();
     fit?;
     let (walls, groups) = bodies?;
@@ -99,6 +109,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         materials,
         contacts,
         background,
+        temperature: temperature?,
         particles: groups.into_iter().map(|(group, _)| group).collect(),
         enclosure: walls.enclosure,
         walls: walls.walls,
@@ -140,9 +151,13 @@ impl Changing {
         root: &mut TableReader<'_>,
         materials: &[Material],
         used: Option<&MaterialUse>,
+        given: Option<Given<'_>>,
     ) -> Result<Self, Reported> {
         let background = read_background(root);
-        let contacts = read_contacts(root, materials, used)?;
+        let mut contacts = read_contacts(root, materials, used)?;
+        if let Some(given) = given {
+            given.satisfies(root, &mut contacts)?;
+        }
         Ok(Self { contacts, background: background? })
     }
 }
@@ -150,6 +165,31 @@ impl Changing {
 /// Whether bonds of a contact form at the start of stages that say so.
 fn forms_bonds_at_start(contact: &Contact) -> bool {
     contact.model.laws.bond.is_some_and(|bond| bond.formation.form == Form::StageStart)
+}
+
+/// What a scenario gives to laws that ask for more than the bodies and their motion.
+#[derive(Clone, Copy)]
+struct Given<'a> {
+    groups: &'a [&'a ParticleGroup],
+    temperature: Option<&'a TemperatureProgram>,
+}
+
+impl Given<'_> {
+    /// Whether all is there that the contacts read; tells them how large it is.
+    fn satisfies(&self, root: &TableReader<'_>, contacts: &mut [Contact]) -> Result<(), Reported> {
+        needs_temperature(root, self.temperature, contacts.iter().map(|contact| &contact.model))?;
+        for contact in contacts {
+            for quantity in contact.model.particle_quantities() {
+                self.groups.iter().try_for_each(|group| needs_quantity(root, group, quantity))?;
+            }
+            let columns = || self.groups.iter().flat_map(|group| &group.columns);
+            contact.model = contact.model.bounded_by(|name| {
+                let sizes = columns().filter(|column| column.name == name).map(|column| column.value.abs());
+                sizes.fold(0.0, f64::max)
+            });
+        }
+        Ok(())
+    }
 }
 
 /// The stages with everything that holds in them.
@@ -171,8 +211,10 @@ fn resolve(
             }
         } else {
             document = switched(&document, &switches)?;
+            let groups: Vec<&ParticleGroup> = scenario.particles.iter().collect();
+            let given = Given { groups: &groups, temperature: scenario.temperature.as_ref() };
             let read = document.read(|mut root| {
-                let changing = Changing::read(&mut root, &scenario.materials, Some(used));
+                let changing = Changing::read(&mut root, &scenario.materials, Some(used), Some(given));
                 // The rest of the file has been checked in the first walk.
                 for key in root.keys() {
                     root.value(key);

@@ -67,10 +67,10 @@ impl Branches {
 }
 
 impl Dynamics {
-    /// The motion of two bodies under the laws of `model` along the line of their centres.
-    pub fn new(model: &ContactModel, bodies: &Bodies) -> Self {
+    /// The motion of two bodies, the `pair`, under the laws of `model` along the line of their centres.
+    pub fn new(model: &ContactModel, bodies: &Bodies, pair: Pair) -> Self {
         let mut model = *model;
-        let (pair, radii) = (bodies.pair(), bodies.radii());
+        let radii = bodies.radii();
         (model.laws.sliding, model.laws.rolling, model.laws.torsion) = (None, None, None);
         Self { layout: model.memory_layout(), model, pair, radii }
     }

@@ -9,7 +9,8 @@ use super::outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
 use super::problem::Problem;
 use crate::branch::ruling_branch;
 use pulvis_contact::NormalMotion;
-use pulvis_core::Simulation;
+use pulvis_core::{NamedColumn, Simulation};
+use pulvis_input::BodyQuantity;
 use pulvis_input::collision::Bodies;
 use setup::setup;
 
@@ -75,7 +76,17 @@ impl<'p> Run<'p> {
         time_step: f64,
         observation: &'p Observation,
     ) -> Result<Self, CollisionError> {
-        let simulation = Simulation::new(setup(problem, time_step, observation.phase))?;
+        let surroundings = problem.surroundings;
+        let setup = setup(problem, time_step, observation.phase);
+        let bodies = setup.particles.len();
+        let column = |quantity: &BodyQuantity| NamedColumn {
+            name: quantity.name.to_owned(),
+            unit: quantity.unit.clone(),
+            values: quantity.values[..bodies].to_vec(),
+        };
+        let columns = surroundings.quantities.iter().map(column).collect();
+        let mut simulation = Simulation::with_columns(setup, columns)?;
+        simulation.set_temperature(surroundings.temperature.clone());
         let mut run = Self {
             columns: vec![0.0; problem.contact.memory_layout().columns()],
             problem,

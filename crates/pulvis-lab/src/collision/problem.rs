@@ -1,6 +1,7 @@
 //! One collision, as both methods see it.
 
 use pulvis_contact::{ContactModel, Pair};
+use pulvis_input::Surroundings;
 use pulvis_input::collision::{Bodies, CollisionCase, Incidence};
 use pulvis_math::elementary;
 
@@ -9,6 +10,7 @@ pub(super) struct Problem<'c> {
     pub contact: &'c ContactModel,
     pub bodies: &'c Bodies,
     pub pair: Pair,
+    pub surroundings: &'c Surroundings,
     /// Relative speed outside the range of all forces [m/s].
     pub velocity: f64,
     /// Its part along the line of centres [m/s].
@@ -28,7 +30,8 @@ impl<'c> Problem<'c> {
         Self {
             contact: &case.contact,
             bodies: &case.bodies,
-            pair: case.bodies.pair(),
+            pair: case.bodies.pair().with_quantities(case.surroundings.quantities_of(&case.contact)),
+            surroundings: &case.surroundings,
             velocity: case.velocity,
             normal_velocity: case.normal_velocity(),
             incidence: case.incidence,

@@ -4,6 +4,7 @@ use super::outcome::{Observation, Regime};
 use super::problem::Problem;
 use super::{CollisionError, collide};
 use pulvis_contact::ContactModel;
+use pulvis_input::Surroundings;
 use pulvis_input::collision::{Bodies, CollisionCase, Method, luding_pair};
 use pulvis_math::elementary;
 
@@ -25,7 +26,7 @@ const TYPICAL_OVERLAP: f64 = 0.05;
 /// stick. A lower end of zero and an infinite upper end stand for the ends of the search, which goes over
 /// five decades.
 ///
-/// Found by exact collisions and bisection to 1e-4, dashpots included.
+/// Found by exact collisions and bisection to 1e-4, dashpots included; quantities of particles, as charges, are zero.
 ///
 /// # Errors
 /// A collision cannot be computed, or takes too long: the pair is overdamped.
@@ -69,6 +70,7 @@ impl Search<'_> {
             contact,
             contact_number: 0,
             method: Method::Exact,
+            surroundings: Surroundings::default(),
         }
     }
 

@@ -2,12 +2,15 @@
 
 use super::ProbeSample;
 use crate::branch::ruling_branch;
+use pulvis_boundary::TemperatureProgram;
 use pulvis_contact::bond::INTACT;
 use pulvis_contact::conventions::LeverArm;
 use pulvis_contact::normal::NormalSource;
 use pulvis_contact::{
-    ContactInputs, ContactKinematics, ContactModel, ContactResponse, NormalMotion, NormalResponse, Pair, bond,
+    ContactInputs, ContactKinematics, ContactModel, ContactResponse, NormalMotion, NormalResponse, Pair,
+    ROOM_TEMPERATURE, bond,
 };
+use pulvis_input::Surroundings;
 use pulvis_input::collision::Bodies;
 use pulvis_math::Vector3;
 
@@ -32,6 +35,7 @@ struct Answer {
 pub(super) struct Indenter<'c> {
     contact: &'c ContactModel,
     pair: Pair,
+    temperature: Option<&'c TemperatureProgram>,
     radii: [f64; 2],
     /// What the contact remembers.
     columns: Vec<f64>,
@@ -49,13 +53,20 @@ pub(super) struct Indenter<'c> {
 impl<'c> Indenter<'c> {
     /// The contact at the start of its path. The work that brought it there from afar is what it stores. A bond that forms
     /// at the start of a stage does so here.
-    pub(super) fn new(contact: &'c ContactModel, bodies: &Bodies, start: Pose, timed: bool) -> Self {
+    pub(super) fn new(
+        contact: &'c ContactModel,
+        bodies: &Bodies,
+        surroundings: &'c Surroundings,
+        start: Pose,
+        timed: bool,
+    ) -> Self {
         let radii = bodies.radii();
         let count = contact.memory_layout().columns();
         let nothing = NormalResponse::none();
         let mut indenter = Self {
             contact,
-            pair: bodies.pair(),
+            pair: bodies.pair().with_quantities(surroundings.quantities_of(contact)),
+            temperature: surroundings.temperature.as_ref(),
             radii,
             columns: vec![0.0; count],
             scratch: vec![0.0; count],
@@ -150,10 +161,12 @@ impl<'c> Indenter<'c> {
     fn ask(&mut self, pose: &Pose, change: &Pose, time_step: f64, rates: &Pose) -> Answer {
         let mid = if time_step > 0.0 { change.map(|change| change / time_step) } else { *rates };
         let mut motion = self.kinematics(pose[0], &mid, rates, [pose[0]; 2]);
+        let middle = self.time + 0.5 * time_step;
+        let temperature = self.temperature.map_or(ROOM_TEMPERATURE, |program| program.at(middle));
         self.scratch.copy_from_slice(&self.columns);
-        let inputs = ContactInputs { pair: &self.pair, motion: &motion, time_step };
-        let along =
-            NormalMotion::new(&self.pair, &self.contact.beside_bond(inputs, &mut self.scratch), time_step);
+        let inputs = ContactInputs { pair: &self.pair, motion: &motion, time_step, temperature };
+        let beside = self.contact.beside_bond(inputs, &mut self.scratch);
+        let along = NormalMotion::new(&self.pair, &beside, time_step, temperature);
         let normal = self.contact.normal.respond(&along, self.scratch.as_mut_slice());
         // Sliding takes its lever arms at mid-step, of a contact that began within the step in the middle of its part.
         let part = if along.growth > 0.0 && normal.in_contact && !normal.was_in_contact {
@@ -164,7 +177,8 @@ impl<'c> Indenter<'c> {
         let bonded = self.is_bonded();
         let overlap = if normal.in_contact || bonded { pose[0] } else { 0.0 };
         motion = self.kinematics(pose[0], &mid, rates, [overlap - 0.5 * part * change[0], overlap]);
-        let response = self.contact.respond(&self.pair, &motion, time_step, &mut self.columns);
+        let step = [time_step, temperature];
+        let response = self.contact.respond_at(&self.pair, &motion, step, &mut self.columns);
         Answer {
             force: response.normal_force - response.event_force,
             contact_radius: normal.contact_radius,

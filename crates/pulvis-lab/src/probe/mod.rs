@@ -13,6 +13,7 @@ pub use table::{COLUMNS, result_table, summary_table};
 
 use indenter::Indenter;
 use pulvis_contact::ContactModel;
+use pulvis_input::Surroundings;
 use pulvis_input::collision::Bodies;
 use pulvis_input::probe::{ProbePath, ProbeScenario};
 use thiserror::Error;
@@ -85,7 +86,8 @@ pub enum ProbeError {
 pub fn probe(scenario: &ProbeScenario) -> Result<Vec<ProbeCurve>, ProbeError> {
     let curve = |contact: &pulvis_input::LabelledContact| {
         let label = contact.label.clone();
-        let samples = follow(&contact.contact.model, &scenario.bodies, &scenario.path);
+        let samples =
+            follow(&contact.contact.model, &scenario.bodies, &scenario.path, &scenario.surroundings);
         let strange = |sample: &&ProbeSample| {
             let numbers = [
                 sample.force,
@@ -106,9 +108,14 @@ pub fn probe(scenario: &ProbeScenario) -> Result<Vec<ProbeCurve>, ProbeError> {
 }
 
 /// Leads one contact along a path.
-pub fn follow(contact: &ContactModel, bodies: &Bodies, path: &ProbePath) -> Vec<ProbeSample> {
+pub fn follow(
+    contact: &ContactModel,
+    bodies: &Bodies,
+    path: &ProbePath,
+    surroundings: &Surroundings,
+) -> Vec<ProbeSample> {
     let Some(start) = path.poses.first() else { return Vec::new() };
-    let mut indenter = Indenter::new(contact, bodies, *start, path.durations.is_some());
+    let mut indenter = Indenter::new(contact, bodies, surroundings, *start, path.durations.is_some());
     for (leg, (from, to)) in path.poses.iter().zip(path.poses.iter().skip(1)).enumerate() {
         let duration = path.durations.as_ref().and_then(|durations| durations.get(leg).copied());
         indenter.follow_leg(from, to, duration, path.points);

@@ -41,6 +41,7 @@ impl Measure {
         if bonds {
             columns.extend(["bonds", "broken_bonds"].map(str::to_owned));
         }
+        columns.extend(scenario.temperature.iter().map(|_| "temperature".to_owned()));
         columns.extend(AXES.map(|axis| format!("centre_of_mass_{axis}")));
         columns.extend(["stress_xx", "stress_yy", "stress_zz"].map(str::to_owned));
         for axis in AXES {
@@ -110,6 +111,7 @@ impl Measure {
             let bonds = simulation.bonds();
             row.extend([bonds.intact as f64, bonds.broken as f64]);
         }
+        row.extend(simulation.temperature());
         // Along a periodic direction there is no centre.
         let periodic = simulation.domain().periodic;
         let centre = simulation.particles().centre_of_mass().to_array();

@@ -63,10 +63,8 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
         time_step: first.time_step,
     };
     let refused = |error| refuse_setup(scenario, &error);
-    let mut simulation = Simulation::new(setup).map_err(refused)?;
-    for column in columns(scenario) {
-        simulation.set_column(column).map_err(refused)?;
-    }
+    let mut simulation = Simulation::with_columns(setup, columns(scenario)).map_err(refused)?;
+    simulation.set_temperature(scenario.temperature.clone());
     simulation.set_limits(Limits { energy_error: scenario.limits.energy_error, ..Limits::default() });
     check_overlaps(scenario, &simulation)?;
     check_feasible(scenario, &particles, &walls, &stages)?;

@@ -4,9 +4,10 @@ use pulvis_contact::catalogue::{Role, Values};
 use pulvis_contact::normal::NormalSource;
 use pulvis_contact::{
     ContactKinematics, ContactModel, ContactResponse, Linear, NonContact, Normal, NormalMotion,
-    NormalResponse, Pair, Viscosity, bond, friction,
+    NormalResponse, Pair, ROOM_TEMPERATURE, Viscosity, bond, friction,
 };
 use pulvis_input::collision::{Bodies, CollisionCase, Method, Sphere};
+use pulvis_input::{BodyQuantity, Surroundings};
 use pulvis_math::Vector3;
 
 use crate::collision::{Observation, Outcome, collide};
@@ -89,6 +90,28 @@ pub(super) fn by_method(
     velocity: f64,
     method: Method,
 ) -> Option<Outcome> {
+    by_method_with(model, bodies, velocity, method, Surroundings::default())
+}
+
+/// How a collision between bodies that have a quantity with these values ends.
+pub(super) fn outcome_with(
+    model: &ContactModel,
+    bodies: Bodies,
+    velocity: f64,
+    (name, values): (&'static str, [f64; 2]),
+) -> Option<Outcome> {
+    let quantities = vec![BodyQuantity { name, unit: String::new(), values }];
+    let surroundings = Surroundings { quantities, ..Surroundings::default() };
+    by_method_with(model, bodies, velocity, Method::Exact, surroundings)
+}
+
+fn by_method_with(
+    model: &ContactModel,
+    bodies: Bodies,
+    velocity: f64,
+    method: Method,
+    surroundings: Surroundings,
+) -> Option<Outcome> {
     let case = CollisionCase {
         value: velocity,
         velocity,
@@ -97,6 +120,7 @@ pub(super) fn by_method(
         contact: *model,
         contact_number: 0,
         method,
+        surroundings,
     };
     collide(&case, &Observation::default()).ok().map(|collision| collision.outcome)
 }
@@ -115,6 +139,8 @@ pub(super) struct Path {
     radii: [f64; 2],
     columns: Vec<f64>,
     overlap: f64,
+    /// Temperature [K].
+    pub temperature: f64,
     /// Lost to plastic deformation and adhesion so far [J].
     pub lost: f64,
     /// What the contact stores, attractions included [J].
@@ -124,7 +150,8 @@ pub(super) struct Path {
 impl Path {
     fn new(model: &ContactModel, pair: Pair, radii: [f64; 2]) -> Self {
         let columns = vec![0.0; model.memory_layout().columns()];
-        Self { model: *model, pair, radii, columns, overlap: -f64::MIN_POSITIVE, lost: 0.0, stored: 0.0 }
+        let (overlap, temperature) = (-f64::MIN_POSITIVE, ROOM_TEMPERATURE);
+        Self { model: *model, pair, radii, columns, overlap, temperature, lost: 0.0, stored: 0.0 }
     }
 
     /// Between a sphere and a wall: the radius is the effective one [m].
@@ -135,6 +162,13 @@ impl Path {
     /// Between two spheres with radii [m].
     pub fn between(model: &ContactModel, first: f64, second: f64) -> Self {
         Self::new(model, Pair::spheres(1.0, 1.0, first, second), [first, second])
+    }
+
+    /// The same between bodies that have a quantity with these values; no other.
+    pub fn with(mut self, name: &str, values: [f64; 2]) -> Self {
+        let quantities = self.model.quantities(|known| if known == name { values } else { [0.0; 2] });
+        self.pair = self.pair.with_quantities(quantities);
+        self
     }
 
     /// Goes to an overlap [m] in one step.
@@ -180,7 +214,8 @@ impl Path {
             angular_velocity_j_mid: zero,
         };
         adjust(&mut motion);
-        let response = self.model.respond(&self.pair, &motion, duration, &mut self.columns);
+        let step = [duration, self.temperature];
+        let response = self.model.respond_at(&self.pair, &motion, step, &mut self.columns);
         let energies = &response.energies;
         self.overlap = overlap;
         self.lost += energies.dissipated();

@@ -119,9 +119,6 @@ const NOT_CHECKED: &[(&str, &[&str])] = &[
     // Numbers that describe a material.
     ("dmt", &["tabor"]),
     ("tomas_published", &["kappa"]),
-    // Temperature is no law of a pair alone.
-    ("luding_sintering", &["k1", "k_T"]),
-    ("sinter_parhami", &["delta_p"]),
 ];
 
 /// Models whose law may not be in the catalogue yet; then their values wait for it.
@@ -133,8 +130,6 @@ const AWAITED: &[(&str, &str)] = &[
     ("thornton_ning", "thornton-ning"),
     ("tomas_published", "tomas"),
     ("tomas_continuous", "tomas"),
-    ("fe_jackson_green", "rathbone"),
-    ("fe_ekk_unload", "rathbone"),
 ];
 
 #[cfg(test)]

@@ -78,6 +78,7 @@ impl Row {
             contact: self.contact(),
             contact_number: 0,
             method: Method::Exact,
+            surroundings: pulvis_input::Surroundings::default(),
         }
     }
 

@@ -7,7 +7,7 @@ use pulvis_math::{Vector3, elementary};
 
 use crate::bodies::Kinematics;
 use crate::draw::Draw;
-use crate::parameters::{loaded_to, pair_of, random_bodies};
+use crate::parameters::{loaded_to, pair_of, random_bodies, with_random_quantities};
 
 /// A smooth prescribed motion of two spheres.
 #[derive(Clone, Debug)]
@@ -46,6 +46,8 @@ impl Dance {
         let (body_i, body_j) = random_bodies(draw);
         let body_j = body_j.unwrap_or((3.0 * body_i.0, 1.5 * body_i.1));
         let pair = pair_of(body_i, Some(body_j));
+        let attraction = model.laws.noncontact.entry();
+        let pair = with_random_quantities(pair, model.normal.entry(), Some(attraction), draw);
         let range = model.normal.interaction_range(&pair);
         // Laws that act at a distance are looked at near there as often as at the scale of the bodies.
         let scale = if range > 0.0 && draw.chance(0.5) {

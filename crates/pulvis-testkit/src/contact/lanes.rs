@@ -2,7 +2,8 @@
 
 use pulvis_contact::normal::{CommonLawVisitor, Inlined};
 use pulvis_contact::{
-    ContactInputs, ContactKinematics, ContactModel, ContactResponse, NormalLaw, Pair, levels,
+    ContactInputs, ContactKinematics, ContactModel, ContactResponse, NormalLaw, Pair, ROOM_TEMPERATURE,
+    levels,
 };
 use pulvis_math::{F64Array, Real, Vector3};
 
@@ -38,7 +39,8 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number(model: &ContactModel, draw
             }
         }
         let together = model.respond(&pairs, &kinematics, dt, &mut memory);
-        let inputs = ContactInputs { pair: &pairs, motion: &kinematics, time_step: dt };
+        let inputs =
+            ContactInputs { pair: &pairs, motion: &kinematics, time_step: dt, temperature: ROOM_TEMPERATURE };
         let of_loop = InLoop { model, inputs, columns: &mut inlined_memory };
         let of_loop = if model.is_common() { model.normal.accept_common(of_loop) } else { None };
         for lane in 0..8 {

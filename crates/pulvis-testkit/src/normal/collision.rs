@@ -9,8 +9,10 @@ use crate::parameters::{loaded_to, pair_of, random_bodies};
 
 /// Time steps in the shortest contact, as the engine takes them by itself.
 const STEPS: f64 = 50.0;
+/// The same for laws with times of their own, which the automatic step does not know.
+const STEPS_IN_TIME: f64 = 1000.0;
 /// Steps after which bodies that stick have been looked at long enough.
-const MOST_STEPS: u64 = 3000;
+const MOST_STEPS: f64 = 60.0 * STEPS;
 
 /// What a collision may lose or gain beside what the law dissipates, of its energy. The method errs by the square of the
 /// step, (π/50)²/8 = 5e-4 of the energy in the stiffest branch; where the force jumps, also that of a dashpot at touch, by
@@ -36,7 +38,12 @@ pub(super) fn a_collision_at_the_automatic_step_keeps_its_energy(law: &Normal, d
     let expected = ExpectedLoading { speed, force: 0.0, overlap: 0.0 };
     let laws = ContactLaws { expected, ..ContactLaws::default() };
     let model = ContactModel { normal: *law, laws };
-    let dt = model.shortest_contact_time(body_i, body_j) / STEPS;
+    let (steps, most_steps) = if law.depends_on_time() {
+        (STEPS_IN_TIME, MOST_STEPS * STEPS_IN_TIME / STEPS)
+    } else {
+        (STEPS, MOST_STEPS)
+    };
+    let dt = model.shortest_contact_time(body_i, body_j) / steps;
     let range = model.interaction_range(&pair, [body_i.1, body_j.map_or(0.0, |(_, radius)| radius)]);
     let touching = body_i.1 + body_j.map_or(0.0, |(_, radius)| radius);
     let height = touching + range + draw.between(1.0, 2.0) * speed * dt;
@@ -48,9 +55,10 @@ pub(super) fn a_collision_at_the_automatic_step_keeps_its_energy(law: &Normal, d
     // The centre of mass keeps some.
     let relative = 0.5 * speed * speed * pair.reduced_mass();
     let (mut most, mut deepest, mut after) = (relative, 0.0_f64, 0);
-    for _ in 0..MOST_STEPS {
+    for _ in 0..most_steps as u64 {
         couple.step(dt);
-        most = most.max(relative + couple.kinetic_energy() - energy);
+        // An attraction that is lost on the way turns over more than the bodies bring.
+        most = most.max(relative + couple.kinetic_energy() - energy).max(couple.lost);
         let apart = couple.overlap <= -range && couple.i.velocity.z > couple.j.map_or(0.0, |j| j.velocity.z);
         deepest = deepest.max(couple.overlap).max(couple.normal_force.abs() / stiffness);
         // The books are right from the step after a jump on.

@@ -5,12 +5,13 @@ use pulvis_math::{F64Array, Real};
 
 use super::{bits, columns};
 use crate::draw::Draw;
-use crate::parameters::random_pair;
+use crate::parameters::{random_pair, with_random_quantities};
 
 type Eight = F64Array<8>;
 
 pub(super) fn lanes_give_the_bits_of_the_plain_number<N: NormalLaw>(law: N, draw: &mut Draw) {
-    let pairs: Vec<Pair> = (0..8).map(|_| random_pair(draw)).collect();
+    let pairs: Vec<Pair> =
+        (0..8).map(|_| with_random_quantities(random_pair(draw), &N::ENTRY, None, draw)).collect();
     let lanes = Pair::<Eight>::from_fn(|lane| pairs[lane]);
     let mut memories = [<N::Memory<f64>>::default(); 8];
     let mut memory = <N::Memory<Eight>>::default();

@@ -7,7 +7,7 @@ use pulvis_math::{Mask, Real};
 
 use crate::draw::Draw;
 use crate::for_each_case;
-use crate::parameters::{loaded_to, random_law, random_pair};
+use crate::parameters::{loaded_to, random_law, random_pair, with_random_quantities};
 
 mod collision;
 mod energy;
@@ -65,7 +65,7 @@ struct Bench<N: NormalLaw> {
 
 impl<N: NormalLaw> Bench<N> {
     fn new(law: N, draw: &mut Draw) -> Self {
-        let pair = random_pair(draw);
+        let pair = with_random_quantities(random_pair(draw), &N::ENTRY, None, draw);
         let mut virgin = <N::Memory<f64>>::default();
         let touch = NormalMotion::at_rest(&pair, 1e-9 * pair.harmonic_radius());
         let touches = law.respond(&touch, &mut virgin);

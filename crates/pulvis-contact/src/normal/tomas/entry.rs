@@ -55,6 +55,7 @@ F = −F_H0 q² − π r p_vdw h_A q³           apart, q = a_0/(a_0 + h_A − h
             .or(1e-8),
             Parameter::choice("variant", "", VARIANTS, "continuous", "the line of flow"),
         ],
+        particle_quantities: &[],
         memory: &["yield_overlap [m]", "pull_off_overlap [m]", "reloaded [m]"],
         closed_form: "points of all branches (law_tomas)",
         example: "law = \"tomas\"\neffective_modulus = \"5e9 Pa\"\nyield_pressure = \"4e8 Pa\"\nvdw_pressure = \"6e7 Pa\"\nhamaker = \"1e-19 J\"",

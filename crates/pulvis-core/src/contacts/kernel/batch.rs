@@ -2,14 +2,16 @@
 
 use pulvis_contact::normal::NormalSource;
 use pulvis_contact::{
-    Columns, ContactEnergies, ContactInputs, ContactKinematics, ContactLaws, MemorySlots, Pair, levels,
+    Columns, ContactEnergies, ContactInputs, ContactKinematics, ContactLaws, MemorySlots, Pair, Quantities,
+    levels,
 };
 use pulvis_math::{F64Array, Packed4, Simd4, Simd4Pair, Simd8, Vector3};
 
-use super::super::block::{LaneIndices, WIDTH};
+use super::super::block::{ContactGroup, LaneIndices, Partner, WIDTH};
 use super::super::totals::GroupTotals;
 use super::bonds::Distance;
 use super::normal::NormalCall;
+use crate::columns::NamedColumn;
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
 
@@ -70,6 +72,8 @@ pub(super) struct Response<C> {
     pub(super) slots: MemorySlots,
     /// The step that led to the present positions [s].
     pub(super) time_step: f64,
+    /// Temperature in the middle of that step [K].
+    pub(super) temperature: f64,
     /// Whether energy can be dissipated along the normal.
     pub(super) with_memory: bool,
     /// Whether energies are summed up.
@@ -163,6 +167,21 @@ impl<R: Simd8> Batch<R> {
         &mut self.blocks[self.count - 1]
     }
 
+    /// Gathers the quantities of the particles of `block`, if it is the one that was added last.
+    pub(super) fn gather_quantities(&mut self, group: &ContactGroup, columns: &[NamedColumn], block: usize) {
+        let Some(gathered) = self.blocks[..self.count].last_mut().filter(|last| last.block == block) else {
+            return;
+        };
+        let pairs: [Quantities; WIDTH] = std::array::from_fn(|lane| {
+            let second = match group.partner {
+                Partner::Particle => Some(group.second_row(block, lane) as usize),
+                Partner::Wall => None,
+            };
+            group.quantities(columns, group.first_row(block, lane) as usize, second)
+        });
+        *gathered.pair.quantities_mut() = Quantities::from_fn(|lane| pairs[lane]);
+    }
+
     /// Computes all blocks, updates their `memory`, and adds up their energies if the ledger is kept.
     ///
     /// # Safety
@@ -180,7 +199,8 @@ impl<R: Simd8> Batch<R> {
             let GatheredBlock { block, pair, motion } = &self.blocks[index];
             // SAFETY: the caller's.
             let mut columns = unsafe { BlockColumns::of(memory, *block, columns) };
-            let inputs = ContactInputs { pair, motion, time_step: response.time_step };
+            let Response { time_step, temperature, .. } = *response;
+            let inputs = ContactInputs { pair, motion, time_step, temperature };
             let mut answer = response.laws.respond::<R, C::Source<'_>, _, RESISTANCE>(
                 &response.call.source(index),
                 &response.slots,

@@ -5,6 +5,7 @@ use pulvis_contact::{Bond, ContactInputs, ContactKinematics, ContactResponse, Me
 use pulvis_math::{F64Array, Pointer, Real, Routine, Simd8, Task};
 
 use super::batch::{BATCH, BlockColumns, GatheredBlock};
+use super::normal::StepMiddle;
 
 /// Eight contacts at a time.
 type F64x8 = F64Array<8>;
@@ -29,20 +30,20 @@ pub(super) struct BondCall<R: Simd8> {
     bond: Bond,
     pointer: Pointer<BondTask, R>,
     slots: MemorySlots,
-    time_step: f64,
+    advance: StepMiddle,
     answers: [BondResponse<R>; BATCH],
     /// Overlaps and distances of the bodies, which the laws of the contact may see otherwise.
     distances: [Distance<R>; BATCH],
 }
 
 impl<R: Simd8> BondCall<R> {
-    /// Calls of a bond over steps of `time_step` [s], with the memory where `slots` says.
+    /// Calls of a bond, with the memory where `slots` says.
     #[inline(always)]
-    pub(super) fn new(bond: Bond, slots: MemorySlots, time_step: f64) -> Self {
+    pub(super) fn new(bond: Bond, slots: MemorySlots, advance: StepMiddle) -> Self {
         let pointer = R::pointer::<BondTask, BondRoutine>();
         let nowhere = Distance { overlap: R::zero(), length: R::zero() };
         let (answers, distances) = ([BondResponse::default(); BATCH], [nowhere; BATCH]);
-        Self { bond, pointer, slots, time_step, answers, distances }
+        Self { bond, pointer, slots, advance, answers, distances }
     }
 
     /// Computes the bonds of the blocks, and turns the blocks into what the laws of the contact see beside the bonds.
@@ -51,7 +52,7 @@ impl<R: Simd8> BondCall<R> {
         self.pointer.call(&mut BondBatch {
             bond: &self.bond,
             slots: &self.slots,
-            time_step: self.time_step,
+            advance: self.advance,
             blocks,
             answers: &mut self.answers,
             distances: &mut self.distances,
@@ -76,7 +77,7 @@ impl<R: Simd8> BondCall<R> {
 pub(super) struct BondBatch<'a, R: Simd8> {
     bond: &'a Bond,
     slots: &'a MemorySlots,
-    time_step: f64,
+    advance: StepMiddle,
     blocks: &'a mut [GatheredBlock<R>],
     answers: &'a mut [BondResponse<R>; BATCH],
     distances: &'a mut [Distance<R>; BATCH],
@@ -96,12 +97,13 @@ struct BondRoutine;
 impl Routine<BondTask> for BondRoutine {
     #[inline(always)]
     fn call<R: Simd8>(data: &mut BondBatch<'_, R>) {
-        let (bond, slots, time_step) = (*data.bond, *data.slots, data.time_step);
+        let (bond, slots) = (*data.bond, *data.slots);
+        let StepMiddle { time_step, temperature } = data.advance;
         let places = data.answers.iter_mut().zip(&mut *data.distances);
         for (block, (answer, distance)) in data.blocks.iter_mut().zip(places) {
             // SAFETY: every gathered block has its memory.
             let mut columns = unsafe { BlockColumns::of(data.memory, block.block, slots.columns()) };
-            let inputs = ContactInputs { pair: &block.pair, motion: &block.motion, time_step };
+            let inputs = ContactInputs { pair: &block.pair, motion: &block.motion, time_step, temperature };
             *answer = bond.respond(inputs, slots.bond(), &mut columns);
             *distance = Distance::of(&block.motion);
             block.motion = answer.beside(&block.motion);

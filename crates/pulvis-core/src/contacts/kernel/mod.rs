@@ -11,9 +11,10 @@ use std::ops::Range;
 use pulvis_math::{InstructionSet, Packed4, Simd8, max_or_nan};
 
 use self::batch::{BlockSums, Response};
-use self::normal::Wants;
+use self::normal::{StepMiddle, Wants};
 use super::block::{ContactGroup, Partner};
 use super::chunk::Approach;
+use crate::columns::NamedColumn;
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
 use crate::walls::WallNow;
@@ -29,6 +30,8 @@ pub(crate) struct KinematicColumns<'a> {
     pub(crate) velocity: Shared<'a, Packed4>,
     pub(crate) angular_velocity_mid: Shared<'a, Packed4>,
     pub(crate) angular_velocity: Shared<'a, Packed4>,
+    /// Quantities that laws may ask for.
+    pub(crate) quantities: &'a [NamedColumn],
 }
 
 impl KinematicColumns<'_> {
@@ -47,6 +50,8 @@ impl KinematicColumns<'_> {
 pub(crate) struct Advance {
     /// The step that led to the present positions [s].
     pub(crate) time_step: f64,
+    /// Temperature in the middle of that step [K].
+    pub(crate) temperature: f64,
     /// The nearest-image rule.
     pub(crate) images: Images,
     /// Whether the time of each part is measured.
@@ -94,10 +99,15 @@ pub(crate) unsafe fn sweep(
 fn response<C>(call: C, group: &ContactGroup, advance: &Advance, ledger: bool) -> Response<C> {
     let (laws, slots) = (group.model.laws, *group.layout.slots());
     let with_memory = laws.remembers_normal_motion(&slots);
-    let Advance { time_step, stored, .. } = *advance;
+    let Advance { time_step, temperature, stored, .. } = *advance;
     // Both are needed at the end of an advance only.
     let observed = stored;
-    Response { call, laws, slots, time_step, with_memory, ledger, stored, observed }
+    Response { call, laws, slots, time_step, temperature, with_memory, ledger, stored, observed }
+}
+
+/// What a pointed loop tells the normal law of the step.
+fn step_middle(advance: &Advance) -> StepMiddle {
+    StepMiddle { time_step: advance.time_step, temperature: advance.temperature }
 }
 
 /// Which parts of a normal law's response the loop over a group uses.

@@ -82,27 +82,38 @@ pub(super) struct Wants {
     pub(super) rate: bool,
 }
 
+/// Length of the step [s], and temperature in its middle [K].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepMiddle {
+    pub(super) time_step: f64,
+    pub(super) temperature: f64,
+}
+
 /// A normal law that is called through a pointer once per batch, for contacts that may be `CURVED`.
 pub(super) struct Pointed<'a, R: Simd8, const CURVED: bool> {
     law: &'a Normal,
     pointer: Pointer<NormalTask, R>,
     answers: [NormalResponse<R>; BATCH],
     columns: usize,
-    time_step: f64,
+    advance: StepMiddle,
     wants: Wants,
     bonds: Option<BondCall<R>>,
 }
 
 impl<'a, R: Simd8, const CURVED: bool> Pointed<'a, R, CURVED> {
-    /// Calls of the normal law and of the bond of a model, over steps of `time_step` [s], with the memory where `slots`
-    /// says.
+    /// Calls of the normal law and of the bond of a model, with the memory where `slots` says.
     #[inline(always)]
-    pub(super) fn new(model: &'a ContactModel, slots: &MemorySlots, time_step: f64, wants: Wants) -> Self {
+    pub(super) fn new(
+        model: &'a ContactModel,
+        slots: &MemorySlots,
+        advance: StepMiddle,
+        wants: Wants,
+    ) -> Self {
         let law = &model.normal;
         let pointer = law.accept(PointerOf::<R>(PhantomData));
-        let bonds = model.laws.bond.map(|bond| BondCall::new(bond, *slots, time_step));
+        let bonds = model.laws.bond.map(|bond| BondCall::new(bond, *slots, advance));
         let (answers, columns) = ([NormalResponse::none(); BATCH], slots.columns());
-        Self { law, pointer, answers, columns, time_step, wants, bonds }
+        Self { law, pointer, answers, columns, advance, wants, bonds }
     }
 }
 
@@ -117,9 +128,9 @@ impl<R: Simd8, const CURVED: bool> NormalCall<R> for Pointed<'_, R, CURVED> {
         if let Some(bonds) = &mut self.bonds {
             bonds.prepare(blocks, memory);
         }
-        let Self { law, pointer, answers, columns, time_step, wants, .. } = self;
-        let (columns, time_step, wants) = (*columns, *time_step, *wants);
-        pointer.call(&mut NormalBatch { law, blocks, answers, memory, columns, time_step, wants });
+        let Self { law, pointer, answers, columns, advance, wants, .. } = self;
+        let (columns, advance, wants) = (*columns, *advance, *wants);
+        pointer.call(&mut NormalBatch { law, blocks, answers, memory, columns, advance, wants });
     }
 
     #[inline(always)]
@@ -155,7 +166,7 @@ pub(super) struct NormalBatch<'a, R: Simd8> {
     answers: &'a mut [NormalResponse<R>; BATCH],
     memory: &'a mut [F64x8],
     columns: usize,
-    time_step: f64,
+    advance: StepMiddle,
     wants: Wants,
 }
 
@@ -174,9 +185,9 @@ impl<N: NormalLaw> Routine<NormalTask> for RoutineOf<N> {
     fn call<R: Simd8>(data: &mut NormalBatch<'_, R>) {
         let Some(law) = N::of(data.law) else { return };
         // By value: otherwise the compiler reads them again after every store.
-        let (law, wants, time_step) = (*law, data.wants, data.time_step);
+        let (law, wants, StepMiddle { time_step, temperature }) = (*law, data.wants, data.advance);
         for (block, slot) in data.blocks.iter().zip(&mut *data.answers) {
-            let motion = NormalMotion::new(&block.pair, &block.motion, time_step);
+            let motion = NormalMotion::new(&block.pair, &block.motion, time_step, temperature);
             // SAFETY: every gathered block has its memory.
             let mut columns = unsafe { BlockColumns::of(data.memory, block.block, data.columns) };
             let answer = answer(&law, &motion, &mut columns);

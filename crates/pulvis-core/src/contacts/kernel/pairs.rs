@@ -1,14 +1,14 @@
 //! Contacts between particles.
 
 use pulvis_contact::friction::CommonFriction;
-use pulvis_contact::normal::{CommonLawVisitor, Inlined};
-use pulvis_contact::{NormalLaw, Pair, levels};
+use pulvis_contact::normal::{CommonLawVisitor, Inlined, NormalSource};
+use pulvis_contact::{NormalLaw, levels};
 use pulvis_math::{Kernel, Mask, Simd8};
 
 use super::super::block::{ContactGroup, occupied_lanes};
 use super::batch::{BATCH, Batch, BlockSums, GatheredBlock, Response, gather, gather_apart};
 use super::normal::{NormalCall, Pointed};
-use super::{Advance, KinematicColumns, Loop, finish, response, wants};
+use super::{Advance, KinematicColumns, Loop, finish, response, step_middle, wants};
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
 
@@ -108,7 +108,7 @@ impl<const RESISTANCE: u8> Kernel for PointedPairs<'_, RESISTANCE> {
         let Self(contacts) = self;
         let (group, advance) = (&*contacts.group, contacts.advance);
         let (model, slots) = (group.model, group.layout.slots());
-        let call = Pointed::<R, false>::new(&model, slots, advance.time_step, wants(group, advance));
+        let call = Pointed::<R, false>::new(&model, slots, step_middle(advance), wants(group, advance));
         let response = response(call, group, advance, advance.ledger);
         // SAFETY: as the caller of `sweep` vouches.
         unsafe { sweep_pairs::<R, _, RESISTANCE, true>(response, contacts) };
@@ -134,6 +134,8 @@ unsafe fn sweep_pairs<R: Simd8, C: NormalCall<R>, const RESISTANCE: u8, const LE
         range: group.interaction_range,
         turning_dashpots: group.model.laws.has_resistance_dashpot(),
     };
+    // Common contacts read none.
+    let reads = <C::Source<'_> as NormalSource<R>>::COMMON.is_none() && group.reads_quantities();
     let mut totals = BlockSums::<R>::new();
     let mut batch = Batch::<R>::new();
     let blocks = group.rows.len();
@@ -147,6 +149,9 @@ unsafe fn sweep_pairs<R: Simd8, C: NormalCall<R>, const RESISTANCE: u8, const LE
         while next < blocks && !batch.is_full() {
             // SAFETY: `next` is a block of the group; the rest as the caller vouches.
             unsafe { gathering.gather::<R, RESISTANCE>(group, next, &mut batch) };
+            if reads {
+                batch.gather_quantities(group, moving.quantities, next);
+            }
             next += 1;
         }
         // SAFETY: every block has its memory and its slots of sums; the rest as the caller vouches.
@@ -218,7 +223,7 @@ impl Gathering<'_> {
         let (velocity, inverse_radius_sum) = unsafe { gather_apart::<R>(moving.velocity, rows) };
         let GatheredBlock { block: number, pair, motion } = batch.add();
         *number = block;
-        *pair = Pair::from_sums(inverse_mass, inverse_radius_sum);
+        pair.set_sums(inverse_mass, inverse_radius_sum);
         motion.normal = separation * inverse_distance;
         (motion.overlap, motion.inverse_distance) = (overlap, inverse_distance);
         (motion.radius_i, motion.radius_j) = (radius_i, radius_j);

@@ -1,12 +1,12 @@
 //! Contacts with walls.
 
-use pulvis_contact::{Pair, levels};
+use pulvis_contact::levels;
 use pulvis_math::{Kernel, Mask, Simd8, Vector3};
 
 use super::super::block::occupied_lanes;
 use super::batch::{BATCH, Batch, BlockSums, gather};
 use super::normal::Pointed;
-use super::{Loop, finish, response, wants};
+use super::{Loop, finish, response, step_middle, wants};
 use crate::shared::Shared;
 use crate::walls::{WallForce, WallNow};
 
@@ -38,7 +38,8 @@ impl Kernel for WallLoop<'_> {
         let (turns, turning_dashpots) = (laws.has_friction(), laws.has_resistance_dashpot());
         let interaction_range = R::splat(-group.interaction_range);
         let slots = group.layout.slots();
-        let call = Pointed::<R, true>::new(&model, slots, advance.time_step, wants(group, advance));
+        let call = Pointed::<R, true>::new(&model, slots, step_middle(advance), wants(group, advance));
+        let reads = group.reads_quantities();
         let mut response = response(call, group, advance, advance.ledger);
         let mut totals = BlockSums::<R>::new();
         let any_turns = walls.iter().any(|wall| wall.angular_velocity().is_some());
@@ -74,7 +75,7 @@ impl Kernel for WallLoop<'_> {
                 // Values that a wall does not have stay zero.
                 let inputs = batch.add();
                 inputs.block = block;
-                inputs.pair = Pair::from_sums(inverse_mass, inverse_radius + surface.mean_curvature);
+                inputs.pair.set_sums(inverse_mass, inverse_radius + surface.mean_curvature);
                 let motion = &mut inputs.motion;
                 (motion.normal, motion.overlap, motion.radius_i) = (surface.normal, overlap, radius);
                 (motion.velocity, motion.velocity_mid) = (velocity, mid);
@@ -92,6 +93,9 @@ impl Kernel for WallLoop<'_> {
                     }
                 }
                 arms[batch.len() - 1] = arm;
+                if reads {
+                    batch.gather_quantities(group, moving.quantities, block);
+                }
             }
             // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.
             unsafe {

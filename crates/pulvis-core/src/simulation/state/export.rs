@@ -21,6 +21,8 @@ impl Simulation {
             wall_starts,
             domain,
             background,
+            // Given again after the import.
+            temperature: _,
             time_step,
             step,
             time,

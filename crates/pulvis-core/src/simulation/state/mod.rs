@@ -15,7 +15,7 @@ use pulvis_boundary::{Background, Domain};
 /// Everything that decides the next bit of a simulation, as plain columns. [`Simulation::import_state`] makes a simulation
 /// of it that continues the exported one, bit for bit, for any number of threads and on any instruction set.
 ///
-/// Not included are contact models and the names, materials, shapes, areas and motions of walls, which are given again at
+/// Not included are contact models, the temperature over time, and the names, materials, shapes, areas and motions of walls, which are given again at
 /// the import; and settings of a run that change no bit: threads, instructions, limits. Everything else in a simulation is
 /// derived from the state.
 ///

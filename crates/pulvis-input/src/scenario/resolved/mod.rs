@@ -48,6 +48,13 @@ impl Scenario {
         writer.table("background");
         writer.key("drag", quantity(self.background.drag, Dimension::DASHPOT));
         writer.key("rotational_drag", quantity(self.background.rotational_drag, Dimension::DASHPOT));
+        if let Some(program) = &self.temperature {
+            writer.table("temperature");
+            let point = |(time, temperature): &(f64, f64)| {
+                list([quantity(*time, Dimension::TIME), quantity(*temperature, Dimension::TEMPERATURE)])
+            };
+            writer.key("program", list(program.points().iter().map(point)));
+        }
         self.write_particles(&mut writer);
         self.write_walls(&mut writer);
         writer.table("time");

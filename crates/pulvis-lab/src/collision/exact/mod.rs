@@ -25,7 +25,7 @@ const LONGEST_STEP: f64 = 1.0 / 8.0;
 /// # Errors
 /// The motion does not end, or leaves the range of numbers.
 pub(super) fn collide(problem: &Problem<'_>, observation: &Observation) -> Result<Collision, CollisionError> {
-    let dynamics = Dynamics::new(problem.contact, problem.bodies);
+    let dynamics = Dynamics::new(problem.contact, problem.bodies, problem.pair);
     let mut flight = Flight::new(dynamics, problem, observation);
     while !flight.over {
         flight.step()?;

@@ -1,11 +1,15 @@
 //! Attractions at a distance.
 
+use pulvis_input::collision::{Bodies, Sphere};
+use pulvis_math::elementary;
+
 use super::{Bench, ROUND_OFF, Suite, Tolerance};
-use crate::verification::contact::{Path, attraction};
+use crate::verification::contact::{Path, attraction, normal, outcome_with};
 use crate::verification::data::Row;
 use crate::verification::search::border;
 
-pub(super) const SUITES: &[Suite] = &[("hamaker", hamaker), ("liquid-bridge", liquid_bridge)];
+pub(super) const SUITES: &[Suite] =
+    &[("hamaker", hamaker), ("liquid-bridge", liquid_bridge), ("coulomb", coulomb)];
 
 fn hamaker(bench: &mut Bench) {
     bench.expect_from("A_H R/(6 z0^2)");
@@ -47,4 +51,37 @@ fn liquid_bridge(bench: &mut Bench) {
         path.go(0.0);
         Some(-path.stored)
     });
+}
+
+/// Two spheres of 1 mm and 2500 kg/m³ with charges of ±10 pC, as in studies of charged grains.
+fn coulomb(bench: &mut Bench) {
+    let (radius, charges) = (1e-3, [1e-11, -1e-11]);
+    let sphere =
+        Sphere { radius, mass: 4.0 / 3.0 * std::f64::consts::PI * 2500.0 * elementary::powi(radius, 3) };
+    let reduced = 0.5 * sphere.mass;
+    bench.expect_from("v_e = √(2 k_e q²/(m_r d)), less the shift s_c/r_c of the potential");
+    let printed = Tolerance { relative: 5e-6, reason: "printed with six digits" };
+    for cutoff in [2e-3, 2e-2, 20.0] {
+        let found = attraction("coulomb", &[("cutoff", cutoff)]).map(|model| {
+            let mut path = Path::between(&model, radius, radius).with("charge", charges);
+            path.go(0.0);
+            (2.0 * -path.stored / reduced).sqrt()
+        });
+        let expected = 13.1015e-3 * cutoff / (2.0 * radius + cutoff);
+        bench.check("escape speed", format!("a=1e-3 q=1e-11 cutoff={cutoff:e}"), expected, found, printed);
+    }
+    bench.expect_from("e² = e_n² (1 + v_e²/v²) − v_e²/v²; bound below v_e √(1/e_n² − 1)");
+    let (loss, escape) = (0.9_f64, 0.5 * 13.1015e-3);
+    let pulled = Tolerance { relative: 1e-3, reason: "the pull in contact; v_e printed with six digits" };
+    for velocity in [3e-3, 4e-3, 5e-3, 2e-2] {
+        let found = || {
+            let mut model = normal("walton-braun", &[("k1", 1e3), ("k2", 1e3 / (loss * loss))])?;
+            model.laws.noncontact = attraction("coulomb", &[("cutoff", 2e-3)])?.laws.noncontact;
+            let bodies = Bodies::Pair([sphere; 2]);
+            outcome_with(&model, bodies, velocity, ("charge", charges)).map(|outcome| outcome.restitution)
+        };
+        let ratio = escape / velocity;
+        let expected = (loss * loss * (1.0 + ratio * ratio) - ratio * ratio).max(0.0).sqrt();
+        bench.check("e", format!("a=1e-3 q=1e-11 cutoff=2e-3 v={velocity:e}"), expected, found(), pulled);
+    }
 }

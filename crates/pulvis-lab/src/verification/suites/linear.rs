@@ -4,7 +4,9 @@ use pulvis_contact::{ContactModel, Pair};
 use pulvis_input::collision::{Bodies, Sphere};
 
 use super::{Bench, INTEGRATED, ROUND_OFF, Suite, TEN_DIGITS};
-use crate::verification::contact::{Path, attraction, damped, normal, outcome, restitution, wall};
+use crate::verification::contact::{
+    Path, attraction, damped, normal, outcome, outcome_with, restitution, wall,
+};
 use crate::verification::search::border;
 
 pub(super) const SUITES: &[Suite] = &[
@@ -12,12 +14,41 @@ pub(super) const SUITES: &[Suite] = &[
     ("luding", luding),
     ("walton-braun", walton_braun),
     ("walton-braun-variable", walton_braun_variable),
+    ("core-shell", core_shell),
     ("constant", constant),
     ("critical", critical),
     ("restitution", given_restitution),
     ("jump-in", jump_in),
     ("reversible", reversible),
 ];
+
+/// The largest overlap from the area under the force.
+fn core_shell(bench: &mut Bench) {
+    let (shell, core, mass) = (100.0, 2000.0, 1e-6);
+    let spheres = Bodies::Pair([Sphere { radius: 1e-3, mass: 2.0 * mass }; 2]);
+    bench.expect_from("conservation of energy: m_r v²/2 = k1 t²/2 + k1 t h + kp h²/2");
+    let model = normal("core-shell", &[("k1", shell), ("kp", core)]);
+    for (bodies, thickness, both) in
+        [(spheres, [1e-5, 3e-5], 4e-5), (wall(mass, 1e-3), [2e-5, 0.0], 2e-5), (spheres, [0.0; 2], 0.0)]
+    {
+        for velocity in [0.05, 0.5, 2.0] {
+            let energy = mass * velocity * velocity;
+            let beyond = energy - shell * both * both;
+            let pressed = shell * both;
+            let expected = if beyond > 0.0 {
+                both + (-pressed + (pressed * pressed + core * beyond).sqrt()) / core
+            } else {
+                (energy / shell).sqrt()
+            };
+            let found = || {
+                let quantity = ("shell_thickness", thickness);
+                outcome_with(&model?, bodies, velocity, quantity).map(|outcome| outcome.overlap_max)
+            };
+            let case = format!("k1=100 kp=2000 m_r=1e-6 t={both:e} v={velocity}");
+            bench.check("largest overlap", case, expected, found(), INTEGRATED);
+        }
+    }
+}
 
 fn linear(bench: &mut Bench) {
     bench.rows("linear_spring_dashpot", &["e", "tc", "dmax_over_v"], INTEGRATED, |row| {

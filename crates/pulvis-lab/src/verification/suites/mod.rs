@@ -8,6 +8,7 @@ mod friction;
 mod linear;
 mod plastic;
 mod plastic_spheres;
+mod sintering;
 
 use super::bench::{Bench, Tolerance};
 
@@ -21,6 +22,7 @@ pub(super) const ALL: &[&[Suite]] = &[
     adhesive::SUITES,
     plastic::SUITES,
     plastic_spheres::SUITES,
+    sintering::SUITES,
     attractions::SUITES,
     friction::SUITES,
     bonds::SUITES,
