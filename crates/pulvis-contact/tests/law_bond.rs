@@ -510,7 +510,8 @@ fn a_contact_whose_place_the_bond_took_begins_without_force() {
     assert!(breaking.energies.dissipated_fracture > 0.0 && breaking.energies.elastic_normal == 0.0);
     // At the overlap of breaking the contact has no force; beyond it has its stiffness, and none once the bodies part less.
     for (deeper, force) in [(0.0, 0.0), (1e-6, 2e-3), (-1e-6, 0.0)] {
-        assert!((ask(&at_rest(overlap + deeper), 0.0).normal_force - force).abs() < 1e-15, "{deeper}");
+        // To 1e-11 of the overlap, at which the contact may begin later.
+        assert!((ask(&at_rest(overlap + deeper), 0.0).normal_force - force).abs() < 2e-13, "{deeper}");
     }
     // After they have come apart, the contact is an ordinary one.
     ask(&at_rest(-1e-9), 0.0);

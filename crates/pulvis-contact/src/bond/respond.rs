@@ -183,7 +183,9 @@ impl Bond {
         memory.bending = end.bending.keep_where(springs);
         memory.twist = end.twist.keep_where(springs);
         memory.state = R::select(breaks, R::splat(BROKEN), memory.state);
-        let begin = if self.hides_contact() { motion.overlap.max(zero) } else { zero };
+        // A little more than the overlap: whether the contact sets in within the next step is then no matter of round-off.
+        let worn = R::splat(1.0 + 1e-12) * motion.overlap;
+        let begin = if self.hides_contact() { worn.max(zero) } else { zero };
         memory.overlap = R::select(breaks, begin, memory.overlap);
     }
 
