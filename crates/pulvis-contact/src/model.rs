@@ -4,7 +4,7 @@ use std::borrow::Borrow;
 
 use pulvis_math::Real;
 
-use crate::bond::{Bond, BondMemory, Form, INTACT};
+use crate::bond::Bond;
 use crate::catalogue::Parameter;
 use crate::conventions::Conventions;
 use crate::energy::ContactEnergies;
@@ -12,7 +12,7 @@ use crate::expected::ExpectedLoading;
 use crate::friction::{CommonFriction, ContactScale, Friction};
 use crate::kinematics::{ContactInputs, ContactKinematics, NormalMotion, ROOM_TEMPERATURE};
 use crate::levels;
-use crate::memory::{self, Columns, Memory, MemoryLayout, MemorySlots};
+use crate::memory::{Columns, MemoryLayout, MemorySlots};
 use crate::noncontact::{self, NonContact};
 use crate::normal::{Normal, NormalResponse, NormalSource};
 use crate::pair::{Pair, Quantities};
@@ -169,30 +169,6 @@ impl ContactModel {
             self.laws.respond::<R, _, _, { levels::ALL }>(&self.normal, &slots, inputs, columns);
         bonded.add_to(&mut response);
         response
-    }
-
-    /// The motion as the contact's own laws see it beside its bond. The bond's memory in `columns` changes as in a
-    /// [response](Self::respond).
-    pub fn beside_bond(&self, inputs: ContactInputs<'_, f64>, columns: &mut [f64]) -> ContactKinematics<f64> {
-        let start = self.memory_layout().slots().bond;
-        let bond = self.laws.bond.as_ref();
-        bond.map_or(*inputs.motion, |bond| bond.respond(inputs, start, columns).beside(inputs.motion))
-    }
-
-    /// Bonds bodies at an overlap [m], if their bond forms at the start of a stage, they are near enough, and were never
-    /// bonded before. Answers with whether it did. The memory stands in `columns`.
-    pub fn form_bond(&self, overlap: f64, columns: &mut [f64]) -> bool {
-        let Some(bond) = &self.laws.bond else { return false };
-        let start = self.memory_layout().slots().bond;
-        let before: BondMemory<f64> = memory::load(columns, start);
-        let forms = bond.formation.form == Form::StageStart
-            && before.state == 0.0
-            && overlap >= -bond.formation.distance;
-        if forms {
-            let memory = BondMemory { overlap, state: INTACT, ..BondMemory::default() };
-            memory.store(|column, value| columns[start + column] = value);
-        }
-        forms
     }
 
     /// How large and how stiff the contact of two bodies becomes under the loading that is expected.

@@ -51,6 +51,11 @@ fn friction_laws_give_no_work_back() {
 }
 
 #[test]
+fn bonds_give_no_work_back_but_what_they_store() {
+    testkit::bond::check_all(10_000);
+}
+
+#[test]
 fn whole_contacts_keep_their_promises() {
     testkit::contact::check_all(400);
 }

@@ -61,6 +61,8 @@ pub trait Real:
     fn powf(self, exponent: f64) -> Self;
     /// Cube root, lane by lane as [`powf`](Self::powf), in a third of its time.
     fn cbrt(self) -> Self;
+    /// Natural logarithm, lane by lane as [`powf`](Self::powf).
+    fn ln(self) -> Self;
     /// The smaller of two numbers (`other` where either is NaN).
     fn min(self, other: Self) -> Self;
     /// The larger of two numbers (`other` where either is NaN).
@@ -160,6 +162,10 @@ impl Real for f64 {
     #[inline(always)]
     fn cbrt(self) -> Self {
         elementary::cbrt(self)
+    }
+    #[inline(always)]
+    fn ln(self) -> Self {
+        elementary::ln(self)
     }
     // `if a < b` and not `f64::min`: one instruction, where the standard function needs three for
     // its rule about NaN.

@@ -23,6 +23,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 pub mod bodies;
+pub mod bond;
 mod cases;
 pub mod catalogue;
 pub mod collisions;

@@ -1,6 +1,6 @@
 //! Bonds that break by an envelope of normal force, shear force and moment, after Jiang et al.
 
-use pulvis_math::{Dimension, Mask, Real, elementary};
+use pulvis_math::{Dimension, Mask, Real};
 
 use super::memory::COLUMNS;
 use super::parameters::with_common;
@@ -109,8 +109,13 @@ impl Jiang {
     fn strengths<R: Real>(&self, normal: R) -> [R; 2] {
         let x = normal + R::splat(self.tensile);
         let ratio = R::splat(self.compressive + self.tensile) / x;
-        let logarithm = R::from_fn(|lane| elementary::ln(ratio.lane(lane)));
-        [self.shear, self.moment].map(|[factor, exponent]| R::splat(factor) * x * logarithm.powf(exponent))
+        let logarithm = ratio.ln();
+        // No closure: these are not inlined by force.
+        let ([shear, shear_exponent], [moment, moment_exponent]) = (self.shear, self.moment);
+        [
+            R::splat(shear) * x * logarithm.powf(shear_exponent),
+            R::splat(moment) * x * logarithm.powf(moment_exponent),
+        ]
     }
 }
 

@@ -54,9 +54,14 @@ impl<R: Real> Memory<R> for BondMemory<R> {
     #[inline(always)]
     fn store(&self, mut column: impl FnMut(usize, R)) {
         let Self { shear, bending, twist, overlap, state } = *self;
-        let all = [shear.x, shear.y, shear.z, bending.x, bending.y, bending.z, twist, overlap, state];
-        for (number, value) in all.into_iter().enumerate() {
-            column(number, value);
-        }
+        column(0, shear.x);
+        column(1, shear.y);
+        column(2, shear.z);
+        column(3, bending.x);
+        column(4, bending.y);
+        column(5, bending.z);
+        column(6, twist);
+        column(7, overlap);
+        column(STATE, state);
     }
 }

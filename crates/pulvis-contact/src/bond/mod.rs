@@ -9,8 +9,10 @@ use pulvis_math::Real;
 
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Values};
 
+mod breaking;
 mod elastic_brittle;
 mod formation;
+mod given;
 mod jiang;
 mod loads;
 mod memory;

@@ -10,9 +10,6 @@ use crate::kinematics::{ContactInputs, ContactKinematics};
 use crate::memory::{self, Columns};
 use crate::response::ContactResponse;
 
-/// Halvings by which the instant of breaking is found within its step: to 1e-12 of it.
-const HALVINGS: usize = 40;
-
 /// How far apart the contact's own laws see bodies whose bond takes their place, over the sum of the radii.
 const OUT_OF_RANGE: f64 = 1e6;
 
@@ -92,10 +89,7 @@ impl<R: Real> BondResponse<R> {
 impl Bond {
     /// The answer to a motion; updates the memory, which begins at the column `start`.
     ///
-    /// A bond that exceeds its strength breaks. It acted up to the instant θ of its last step, with forces that grew from F_0
-    /// to F_b: the bodies get the impulse (F_0 + F_b) θ dt/2 by ½ [θ (F_0 + F_b) − F_0] at the end of the step, which the two
-    /// half kicks apply (see [`events`](crate::events)). What is lost is what the springs stored at θ. Both hold for steps of
-    /// any length.
+    /// A bond that exceeds its strength breaks within the step; what the bodies feel of it then stands in `breaking.rs`.
     #[inline(always)]
     pub fn respond<R: Real, C: Columns<R> + ?Sized>(
         &self,
@@ -148,32 +142,19 @@ impl Bond {
         memory: &mut BondMemory<R>,
         response: &mut BondResponse<R>,
     ) {
-        let (zero, one, half) = (R::zero(), R::one(), R::splat(0.5));
+        let zero = R::zero();
         let motion = inputs.motion;
         let harmonic = inputs.pair.harmonic_radius();
         let stiffness = self.stiffness_between(motion, memory);
         let step = BondStep::new(inputs, memory, forms, self.springs.at_mid_length());
         let end = step.before_end(zero);
         let breaks = intact & self.criterion.exceeded(&end.loads(&stiffness, harmonic));
-        let (mut stretch, mut weight) = (end, one);
+        let (mut stretch, mut weight) = (end, R::one());
         if breaks.any() {
-            // The part of the step that was left when the bond broke.
-            let (mut left, mut before) = (zero, one);
-            for _ in 0..HALVINGS {
-                let middle = half * (left + before);
-                let exceeds = self.criterion.exceeded(&step.before_end(middle).loads(&stiffness, harmonic));
-                left = R::select(exceeds, middle, left);
-                before = R::select(exceeds, before, middle);
-            }
-            let event = step.before_end(left);
-            response.dissipated = event.energy(&stiffness).keep_where(breaks);
-            // Without a step, no time has passed in which the bond acted.
-            let moves = if inputs.time_step > 0.0 { one } else { zero };
-            let acted = moves * (one - left);
-            weight = R::select(breaks, acted - half * moves, one);
-            let start = step.before_end(one).scaled(moves.keep_where(!forms));
-            let applied = start.plus(&event).scaled(half * acted).plus(&start.scaled(-half));
-            stretch = Stretch::select(breaks, applied, end);
+            let breaking = self.breaking(&step, &stiffness, harmonic, inputs.time_step, forms);
+            response.dissipated = breaking.stored.keep_where(breaks);
+            weight = R::select(breaks, breaking.weight, weight);
+            stretch = Stretch::select(breaks, breaking.applied, end);
         }
         response.stored_energy = end.energy(&stiffness).keep_where(intact & !breaks);
         self.answer(inputs, &stiffness, &stretch, (intact, weight), response);

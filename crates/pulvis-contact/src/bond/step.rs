@@ -86,10 +86,9 @@ impl<R: Real> BondStep<R> {
         let common = half * dt * (turn_i + turn_j).dot(normal);
         let transport = Transport::new(old_normal, normal, common);
         // What was done on the way has turned, on average, by half of it.
-        let seen = |rate: Vector3<R>| {
-            let way = rate * elapsed;
-            (way + normal.cross(way) * (half * common)).tangential_to(normal)
-        };
+        let (sheared, bent) = (slip * elapsed, turning.tangential_to(normal_mid) * elapsed);
+        let (sheared, bent) =
+            (turned_by(sheared, normal, half * common), turned_by(bent, normal, half * common));
         let turned = BondMemory {
             shear: transport.of(before.shear),
             bending: transport.of(before.bending),
@@ -97,8 +96,8 @@ impl<R: Real> BondStep<R> {
         };
         Self {
             before: turned,
-            shear: seen(slip),
-            bending: seen(turning.tangential_to(normal_mid)),
+            shear: sheared,
+            bending: bent,
             twist: normal_mid.dot(turning) * elapsed,
             overlap: motion.overlap,
             growth,
@@ -116,6 +115,12 @@ impl<R: Real> BondStep<R> {
             twist: self.before.twist + self.twist * done,
         }
     }
+}
+
+/// A vector turned about the normal by a small angle, without its part along the normal.
+#[inline(always)]
+fn turned_by<R: Real>(vector: Vector3<R>, normal: Vector3<R>, angle: R) -> Vector3<R> {
+    (vector + normal.cross(vector) * angle).tangential_to(normal)
 }
 
 impl<R: Real> Stretch<R> {

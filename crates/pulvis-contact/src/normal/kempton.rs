@@ -20,7 +20,8 @@ use crate::pair::Pair;
 /// ```
 ///
 /// The attraction has a potential, −c ∫ A dδ, and acts only while the bodies overlap. At a curved wall the effective radius
-/// of the pair stands for a. The bonds of the publication are laws of their own.
+/// of the pair stands for a. The bonds of the publication's agglomerates are the bond `elastic-brittle` with a normal
+/// stiffness alone, which adds to this contact: f = k_b (δ − δ_b) until −f > F_b.
 ///
 /// # Source
 /// L. Kempton, D. Pinson, S. Chew, P. Zulli, A. Yu, Powder Technol. 223, 19 (2012), for the composition; the form of the
@@ -41,8 +42,9 @@ impl Law for Kempton {
         equations: "\
 f = max(k2 (δ − δ_0), 0) − c A            k1 δ − c A while the largest overlap D grows;  δ_0 = (1 − k1/k2) D
 A = (π/4) δ (2 s − δ) (1 − (g/(s − δ))²)  s = a_i + a_j,  g = a_i − a_j
-A = π δ (2 a − δ)                         wall",
-        source: "Kempton, Pinson, Chew, Zulli & Yu, Powder Technol. 223, 19 (2012), for the composition; its magnitudes could not be confirmed against the original",
+A = π δ (2 a − δ)                         wall
+bonds of the agglomerates: [contacts.A-B.bond], law elastic-brittle with a normal stiffness alone",
+        source: "Kempton, Pinson, Chew, Zulli & Yu, Powder Technol. 223, 19 (2012), for the composition of spring, attraction and bond; its magnitudes could not be confirmed against the original",
         parameters: &[
             K1,
             K2,
@@ -56,7 +58,7 @@ A = π δ (2 a − δ)                         wall",
         ],
         particle_quantities: &[],
         memory: &["overlap_max [m]"],
-        closed_form: "area of overlap (law_plastic)",
+        closed_form: "area of overlap (law_plastic); with a bond the sum of both (law_bond)",
         example: "law = \"kempton\"\nk1 = \"100 N/m\"\nk2 = \"400 N/m\"\ncohesion_density = \"1e4 Pa\"",
     };
 

@@ -121,6 +121,10 @@ macro_rules! lane_by_lane {
         fn cbrt(self) -> Self {
             Self::load(&F64Array(self.to_array().map($crate::elementary::cbrt)))
         }
+        #[inline(always)]
+        fn ln(self) -> Self {
+            Self::load(&F64Array(self.to_array().map($crate::elementary::ln)))
+        }
     };
 }
 

@@ -9,12 +9,10 @@ use crate::bodies::{Kinematics, pair_motion};
 use crate::draw::Draw;
 use crate::live::{LiveContact, Springs};
 
-/// Not a multiple of the two cycles of overlaps in a dance: a contact that begins where a bond broke is then not asked at
-/// that very overlap once more.
-const STEPS: usize = 61;
+const STEPS: usize = 60;
 
 /// Positions of the order of a radius and overlaps of 1e-4 of it carry a relative round-off of 1e-12,
-/// velocities from differences of positions one of 1e-10; dashpots add both up over sixty-one steps.
+/// velocities from differences of positions one of 1e-10; dashpots add both up over sixty steps.
 const ROUND_OFF: f64 = 1e-7;
 
 /// How much more in the step in which a bond breaks.

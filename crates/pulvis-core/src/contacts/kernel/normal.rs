@@ -111,7 +111,11 @@ impl<'a, R: Simd8, const CURVED: bool> Pointed<'a, R, CURVED> {
     ) -> Self {
         let law = &model.normal;
         let pointer = law.accept(PointerOf::<R>(PhantomData));
-        let bonds = model.laws.bond.map(|bond| BondCall::new(bond, *slots, advance));
+        // No closure: these are not inlined by force.
+        let mut bonds = None;
+        if let Some(bond) = model.laws.bond {
+            bonds = Some(BondCall::new(bond, *slots, advance));
+        }
         let (answers, columns) = ([NormalResponse::none(); BATCH], slots.columns());
         Self { law, pointer, answers, columns, advance, wants, bonds }
     }
