@@ -1,0 +1,114 @@
+//! Temperature and quantities of particles in collisions, probes and runs.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
+
+mod protocol_scenarios;
+
+use protocol_scenarios::{Series, run, scenario};
+use pulvis_input::Document;
+use pulvis_input::collision::CollisionScenario;
+use pulvis_input::probe::ProbeScenario;
+use pulvis_lab::collision::sweep;
+use pulvis_lab::probe::probe;
+
+const SINTER: &str = "\
+law = \"sinter-luding\"
+k1 = \"100 N/m\"
+kp = \"500 N/m\"
+kc = \"20 N/m\"
+phi_f = 0.2
+t_melt = \"500 K\"
+t_width = \"10 K\"
+time_scale = \"1 ms\"
+";
+
+/// Restitution of a collision of two spheres of 1 mm.
+fn restitution(keys: &str, contact: &str) -> f64 {
+    let text = format!("{keys}\n[contact.normal]\n{contact}");
+    let document = Document::from_str("collision.toml", &text).unwrap();
+    let scenario = CollisionScenario::from_document(&document).unwrap_or_else(|errors| panic!("{errors}"));
+    sweep(&scenario, false).unwrap()[0].collision.outcome.restitution
+}
+
+const PAIR: &str = "[collision]\nbodies = \"pair\"\nradius = \"1 mm\"\ndensity = \"2500 kg/m^3\"\n";
+
+#[test]
+fn a_hot_collision_is_more_plastic_than_a_cold_one() {
+    let at = |temperature: &str| {
+        let keys =
+            format!("temperature = \"{temperature}\"\n{PAIR}velocity = \"5 mm/s\"\nmethod = \"engine\"");
+        restitution(&keys, SINTER)
+    };
+    let (cold, hot) = (at("300 K"), at("520 K"));
+    assert!(hot < 0.8 * cold && cold < 1.0, "{cold} {hot}");
+}
+
+#[test]
+fn charges_are_bound_below_the_speed_that_theory_says_by_both_methods() {
+    // v_e √(1/e² − 1) with e = 0.9 and half of 13.1015 mm/s: 3.173 mm/s.
+    for method in ["exact", "engine"] {
+        let at = |velocity: &str| {
+            let keys = format!(
+                "{PAIR}charge = [\"10 pC\", \"-10 pC\"]\nvelocity = \"{velocity}\"\nmethod = \"{method}\""
+            );
+            let contact = "law = \"walton-braun\"\nk1 = \"1 N/m\"\nk2 = \"1.2345679 N/m\"\n\
+                           [contact.noncontact]\nlaw = \"coulomb\"\ncutoff = \"2 mm\"\n";
+            restitution(&keys, contact)
+        };
+        assert_eq!(at("3 mm/s"), 0.0, "{method}");
+        assert!(at("3.5 mm/s") > 0.1, "{method}");
+    }
+}
+
+#[test]
+fn a_probe_that_holds_a_contact_while_it_melts_sees_its_stiffness_fall() {
+    let text = format!(
+        "[temperature]\nprogram = [[\"0 s\", \"300 K\"], [\"1 ms\", \"300 K\"], [\"1.001 ms\", \"507 K\"]]\n\
+         [probe]\nbodies = \"wall\"\nradius = \"1 mm\"\ndensity = \"2000 kg/m^3\"\n\
+         overlap = [\"0 um\", \"20 um\", \"20 um\", \"20 um\"]\ndurations = [\"0.5 ms\", \"0.5 ms\", \"5 ms\"]\n\
+         [contact.normal]\n{SINTER}"
+    );
+    let document = Document::from_str("probe.toml", &text).unwrap();
+    let samples = probe(&ProbeScenario::from_document(&document).unwrap()).unwrap().remove(0).samples;
+    let at = |leg: f64| samples.iter().find(|sample| sample.leg == leg).unwrap();
+    assert!((at(2.0).force / 2e-3 - 1.0).abs() < 1e-12, "{:?}", at(2.0));
+    // k_T = 19.78 N/m at 507 K, w = 4.055: after five time scales w/(1 + 5 w) = 0.1906, k = 23.55 N/m.
+    let melted = samples.last().unwrap();
+    assert!((melted.force / (23.55 * 20e-6) - 1.0).abs() < 2e-3, "{melted:?}");
+    // All that was lost went at fixed overlap: what is dissipated and stored is the work.
+    assert!(
+        (melted.stored_energy + melted.dissipated - melted.work).abs() < 1e-9 * melted.work,
+        "{melted:?}"
+    );
+    assert!(melted.dissipated > 1e-9, "{melted:?}");
+}
+
+#[test]
+fn a_run_writes_its_temperature_and_the_energies_of_charges_and_heat() {
+    let text = format!(
+        "gravity = [\"0 m/s^2\", \"0 m/s^2\", \"-9.81 m/s^2\"]\n\
+         [temperature]\nprogram = [[\"0 s\", \"300 K\"], [\"20 ms\", \"520 K\"]]\n\
+         [materials.grain]\ndensity = \"2000 kg/m^3\"\n\
+         [contacts.grain-grain.normal]\n{SINTER}\
+         [contacts.grain-grain.noncontact]\nlaw = \"coulomb\"\ncutoff = \"3 mm\"\n\
+         [[particles]]\nmaterial = \"grain\"\ncount = 27\n\
+         radius = {{ distribution = \"fixed\", value = \"0.4 mm\" }}\n\
+         arrangement = {{ kind = \"lattice\", lower = [\"0.5 mm\", \"0.5 mm\", \"0.5 mm\"], counts = [3, 3, 3], spacing = \"0.9 mm\" }}\n\
+         columns = {{ charge = \"3 pC\" }}\n\
+         [box]\nmaterial = \"grain\"\nlower = [\"0 mm\", \"0 mm\", \"0 mm\"]\nupper = [\"3.5 mm\", \"3.5 mm\", \"5 mm\"]\n\
+         [[stages]]\nname = \"heat\"\nuntil = {{ time = \"20 ms\" }}\n[output]\nplots = false\n"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let summary = run(&scenario(&text), folder.path());
+    assert!(summary.energy_error_max < 1e-3, "{}", summary.energy_error_max);
+    let series = Series::read(folder.path());
+    let temperatures = series.column("temperature");
+    assert_eq!(temperatures[0], 300.0);
+    assert!((temperatures.last().unwrap() - 520.0).abs() < 0.1, "{temperatures:?}");
+    assert!(series.column("electrostatic").iter().all(|&energy| energy > 0.0));
+    assert!(*series.column("dissipated_thermal").last().unwrap() > 0.0);
+    // What the run says that it used is the same scenario.
+    let record = std::fs::read_to_string(folder.path().join("run.toml")).unwrap();
+    let again = scenario(&record);
+    assert_eq!(again.temperature, scenario(&text).temperature);
+}
