@@ -184,6 +184,9 @@ impl<const N: usize> Real for F64Array<N> {
     fn cbrt(self) -> Self {
         Self(self.0.map(elementary::cbrt))
     }
+    fn exp(self) -> Self {
+        Self(self.0.map(elementary::exp))
+    }
     fn ln(self) -> Self {
         Self(self.0.map(elementary::ln))
     }

@@ -61,6 +61,8 @@ pub trait Real:
     fn powf(self, exponent: f64) -> Self;
     /// Cube root, lane by lane as [`powf`](Self::powf), in a third of its time.
     fn cbrt(self) -> Self;
+    /// e to the power, lane by lane as [`powf`](Self::powf).
+    fn exp(self) -> Self;
     /// Natural logarithm, lane by lane as [`powf`](Self::powf).
     fn ln(self) -> Self;
     /// The smaller of two numbers (`other` where either is NaN).
@@ -162,6 +164,10 @@ impl Real for f64 {
     #[inline(always)]
     fn cbrt(self) -> Self {
         elementary::cbrt(self)
+    }
+    #[inline(always)]
+    fn exp(self) -> Self {
+        elementary::exp(self)
     }
     #[inline(always)]
     fn ln(self) -> Self {

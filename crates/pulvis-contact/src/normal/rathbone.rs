@@ -1,7 +1,5 @@
 //! Elastic-plastic spheres by fits to finite elements, in place of those of Rathbone and others.
 
-use std::array;
-
 use pulvis_math::{Dimension, Mask, Real};
 
 use self::curve::{Curve, ONSET};
@@ -178,6 +176,12 @@ impl Rathbone {
     }
 }
 
+/// One number of each lane.
+#[inline(always)]
+fn of<R: Real>(lanes: &[Yielded; 8], value: fn(&Yielded) -> f64) -> R {
+    R::from_fn(|lane| value(&lanes[lane]))
+}
+
 impl NormalLaw for Rathbone {
     type Memory<R: Real> = RathboneMemory<R>;
 
@@ -199,28 +203,28 @@ impl NormalLaw for Rathbone {
         *memory = RathboneMemory::default();
         if yields.any() {
             // Lane by lane: powers and exponentials have no other way.
-            let lanes: [Yielded; 8] = array::from_fn(|lane| {
-                if lane >= R::LANES || !yields.lane(lane) {
-                    return Yielded::default();
+            let mut lanes = [Yielded::default(); 8];
+            // No closure over vectors: these are not inlined by force.
+            for (lane, yielded) in lanes.iter_mut().enumerate().take(R::LANES) {
+                if yields.lane(lane) {
+                    let past = RathboneMemory {
+                        overlap_max: before.overlap_max.lane(lane),
+                        residual: before.residual.lane(lane),
+                        exponent: before.exponent.lane(lane),
+                        force_max: before.force_max.lane(lane),
+                    };
+                    *yielded = self.yielded(radius.lane(lane), depth.lane(lane), past);
                 }
-                let past = RathboneMemory {
-                    overlap_max: before.overlap_max.lane(lane),
-                    residual: before.residual.lane(lane),
-                    exponent: before.exponent.lane(lane),
-                    force_max: before.force_max.lane(lane),
-                };
-                self.yielded(radius.lane(lane), depth.lane(lane), past)
-            });
-            let of = |value: fn(&Yielded) -> f64| R::from_fn(|lane| value(&lanes[lane]));
-            force = R::select(yields, of(|lane| lane.force), force);
-            stored = R::select(yields, of(|lane| lane.stored), stored);
-            stiffness = R::select(yields, of(|lane| lane.stiffness), stiffness);
-            lost = of(|lane| lane.lost);
+            }
+            force = R::select(yields, of(&lanes, |lane| lane.force), force);
+            stored = R::select(yields, of(&lanes, |lane| lane.stored), stored);
+            stiffness = R::select(yields, of(&lanes, |lane| lane.stiffness), stiffness);
+            lost = of(&lanes, |lane| lane.lost);
             *memory = RathboneMemory {
-                overlap_max: of(|lane| lane.memory.overlap_max),
-                residual: of(|lane| lane.memory.residual),
-                exponent: of(|lane| lane.memory.exponent),
-                force_max: of(|lane| lane.memory.force_max),
+                overlap_max: of(&lanes, |lane| lane.memory.overlap_max),
+                residual: of(&lanes, |lane| lane.memory.residual),
+                exponent: of(&lanes, |lane| lane.memory.exponent),
+                force_max: of(&lanes, |lane| lane.memory.force_max),
             };
         }
         NormalResponse {

@@ -1,6 +1,5 @@
 //! Contacts whose plastic overlap grows with time, as in sintering.
 
-use pulvis_math::elementary::exp;
 use pulvis_math::{Dimension, Mask, Real};
 
 use super::{NormalLaw, NormalResponse};
@@ -168,6 +167,13 @@ impl SinterOverlap {
         R::splat(0.5) * self.stiffness(scales, plastic) * stretched * stretched
     }
 
+    /// Elastic energy on the tensile limit.
+    #[inline(always)]
+    fn stored_on_limit<R: Real>(&self, overlap: R, k2: R) -> R {
+        let kc = R::splat(self.kc);
+        R::splat(0.5) * kc * kc * overlap * overlap / k2
+    }
+
     /// The contact after a motion to an overlap, however short.
     #[inline(always)]
     fn moved<R: Real>(&self, scales: &Scales<R>, before: R, depth: R) -> Reached<R> {
@@ -188,8 +194,8 @@ impl SinterOverlap {
             let shrunk = self.on_limit(depth, scales.slope).min(reached.plastic);
             let begins = k2 * reached.plastic / (k2 + kc);
             let work = half * kc * (begins - depth) * (begins + depth);
-            let stored = |overlap: R, k2: R| half * kc * kc * overlap * overlap / k2;
-            let lost = work + stored(begins, k2) - stored(depth, self.stiffness(scales, shrunk));
+            let lost = work + self.stored_on_limit(begins, k2)
+                - self.stored_on_limit(depth, self.stiffness(scales, shrunk));
             reached.lost_adhesive = lost.keep_where(at_limit);
             reached.plastic = R::select(at_limit, shrunk, reached.plastic);
         }
@@ -213,7 +219,7 @@ impl SinterOverlap {
         let per_neck = if self.parhami { one / (R::splat(0.75) * neck * neck) } else { one };
         let power = R::splat(-2.0 * self.rate * self.k1 / self.sinter_tension * time_step) * per_neck;
         let power = power * (one + scales.slope * depth);
-        let decay = R::from_fn(|lane| exp(power.lane(lane)));
+        let decay = power.exp();
         let left = (depth - plastic) / (one + scales.slope * plastic) * decay;
         // Round-off must not make it shrink.
         ((depth - left) / (one + scales.slope * left)).max(plastic).min(scales.most)

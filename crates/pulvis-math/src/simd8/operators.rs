@@ -122,6 +122,10 @@ macro_rules! lane_by_lane {
             Self::load(&F64Array(self.to_array().map($crate::elementary::cbrt)))
         }
         #[inline(always)]
+        fn exp(self) -> Self {
+            Self::load(&F64Array(self.to_array().map($crate::elementary::exp)))
+        }
+        #[inline(always)]
         fn ln(self) -> Self {
             Self::load(&F64Array(self.to_array().map($crate::elementary::ln)))
         }

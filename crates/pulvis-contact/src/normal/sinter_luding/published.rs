@@ -73,11 +73,25 @@ impl SinterLuding {
     ) -> Point<R> {
         let one = R::one();
         let loaded = overlap_max.max(overlap.min(one / inverse_limit));
-        let spring =
-            |overlap: R| overlap * overlap * (one - plastic / self.hardened(plastic, overlap, inverse_limit));
-        let lost = R::splat(0.5) * plastic * (spring(loaded) - spring(overlap_max));
+        let after = self.part_lost(plastic, loaded, inverse_limit);
+        let lost = R::splat(0.5) * plastic * (after - self.part_lost(plastic, overlap_max, inverse_limit));
         losses.plastic += lost.keep_where(loaded.gt(overlap_max));
         self.point(plastic, loaded, overlap, inverse_limit, losses)
+    }
+
+    /// What loading to a largest overlap loses, over k/2.
+    #[inline(always)]
+    fn part_lost<R: Real>(&self, plastic: R, overlap_max: R, inverse_limit: R) -> R {
+        let part = plastic / self.hardened(plastic, overlap_max, inverse_limit);
+        overlap_max * overlap_max * (R::one() - part)
+    }
+
+    /// What the tensile limit takes from the line of a largest overlap down to no overlap.
+    #[inline(always)]
+    fn work_of_limit<R: Real>(&self, plastic: R, overlap_max: R, k2: R) -> R {
+        let kc = R::splat(self.kc);
+        let stretched = (k2 - plastic) * overlap_max;
+        R::splat(0.5) * kc * stretched * stretched / (k2 * (k2 + kc))
     }
 
     /// Where a contact with a largest overlap stands at an overlap, S1 section 2.2.5 with k for k1.
@@ -91,8 +105,7 @@ impl SinterLuding {
         losses: &mut Losses<R>,
     ) -> Point<R> {
         let (number, half, kc) = (R::splat, R::splat(0.5), R::splat(self.kc));
-        let hardened = |overlap: R| self.hardened(plastic, overlap, inverse_limit);
-        let k2 = hardened(overlap_max);
+        let k2 = self.hardened(plastic, overlap_max, inverse_limit);
         let line = k2 * overlap - (k2 - plastic) * overlap_max;
         let tensile = -(kc * overlap);
         let at_limit = line.lt(tensile);
@@ -103,15 +116,12 @@ impl SinterLuding {
         let y = overlap * inverse_limit;
         let root = (y * (y + number(4.0) * ratio)).sqrt();
         let shrunk = (half * (y + root) / inverse_limit).min(overlap_max);
-        let work = |overlap_max: R, k2: R| {
-            let stretched = (k2 - plastic) * overlap_max;
-            half * kc * stretched * stretched / (k2 * (k2 + kc))
-        };
-        let lost = work(overlap_max, k2) - work(shrunk, hardened(shrunk));
+        let softer = self.hardened(plastic, shrunk, inverse_limit);
+        let lost = self.work_of_limit(plastic, overlap_max, k2) - self.work_of_limit(plastic, shrunk, softer);
         losses.adhesive += lost.keep_where(at_limit);
         Point {
             overlap_max: R::select(at_limit, shrunk, overlap_max),
-            k2: R::select(at_limit, hardened(shrunk), k2),
+            k2: R::select(at_limit, softer, k2),
             force: R::select(at_limit, tensile, line),
         }
     }

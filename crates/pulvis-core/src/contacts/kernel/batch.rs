@@ -168,18 +168,21 @@ impl<R: Simd8> Batch<R> {
     }
 
     /// Gathers the quantities of the particles of `block`, if it is the one that was added last.
+    #[inline(always)]
     pub(super) fn gather_quantities(&mut self, group: &ContactGroup, columns: &[NamedColumn], block: usize) {
-        let Some(gathered) = self.blocks[..self.count].last_mut().filter(|last| last.block == block) else {
+        let Some(gathered) = self.blocks[..self.count].last_mut() else { return };
+        if gathered.block != block {
             return;
-        };
-        let pairs: [Quantities; WIDTH] = std::array::from_fn(|lane| {
-            let second = match group.partner {
-                Partner::Particle => Some(group.second_row(block, lane) as usize),
-                Partner::Wall => None,
-            };
-            group.quantities(columns, group.first_row(block, lane) as usize, second)
-        });
-        *gathered.pair.quantities_mut() = Quantities::from_fn(|lane| pairs[lane]);
+        }
+        let quantities = quantities_of(group, columns, block);
+        let gathered = gathered.pair.quantities_mut();
+        for (into, from) in
+            [(&mut gathered.normal, &quantities.normal), (&mut gathered.attraction, &quantities.attraction)]
+        {
+            for (into, from) in into.iter_mut().zip(from) {
+                (into[0], into[1]) = (R::load(&from[0]), R::load(&from[1]));
+            }
+        }
     }
 
     /// Computes all blocks, updates their `memory`, and adds up their energies if the ledger is kept.
@@ -274,6 +277,20 @@ impl<R: Simd8> Batch<R> {
         }
         self.count = 0;
     }
+}
+
+/// The quantities of the particles of a block, in memory: few groups have laws that read them, and the loops of others
+/// hold no code for it.
+#[inline(never)]
+fn quantities_of(group: &ContactGroup, columns: &[NamedColumn], block: usize) -> Quantities<F64x8> {
+    let pairs: [Quantities; WIDTH] = std::array::from_fn(|lane| {
+        let second = match group.partner {
+            Partner::Particle => Some(group.second_row(block, lane) as usize),
+            Partner::Wall => None,
+        };
+        group.quantities(columns, group.first_row(block, lane) as usize, second)
+    });
+    Quantities::from_fn(|lane| pairs[lane])
 }
 
 /// The columns of eight rows.
