@@ -196,14 +196,15 @@ pub fn render_spheres(path: &Path, scene: &SphereScene<'_>) -> Result<(), IoErro
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
     use super::*;
+    use crate::plot::raster::Decoded;
 
     /// Colour of a pixel of the rendered scene.
     fn pixels(scene: &SphereScene<'_>) -> impl Fn(u32, u32) -> [u8; 3] + use<> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("picture.png");
         render_spheres(&path, scene).unwrap();
-        let image = image::open(path).unwrap().to_rgb8();
-        move |x, y| image.get_pixel(x, y).0
+        let image = Decoded::open(&path).unwrap();
+        move |x, y| image.pixel(x, y)
     }
 
     #[test]

@@ -79,3 +79,31 @@ mod tests {
         assert_eq!(average(&large, 4, 2), [128, 128, 128, 9, 9, 9]);
     }
 }
+
+/// A picture as it stands in a file, for tests.
+#[cfg(test)]
+pub(crate) struct Decoded {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    /// Red, green and blue of the pixels, row by row.
+    pub(crate) pixels: Vec<[u8; 3]>,
+}
+
+#[cfg(test)]
+impl Decoded {
+    pub(crate) fn open(path: &std::path::Path) -> Result<Self, Box<dyn std::error::Error>> {
+        let file = std::io::BufReader::new(std::fs::File::open(path)?);
+        let mut reader = png::Decoder::new(file).read_info()?;
+        let mut bytes = vec![0; reader.output_buffer_size().ok_or("the picture is too large")?];
+        let info = reader.next_frame(&mut bytes)?;
+        if (info.color_type, info.bit_depth) != (ColorType::Rgb, BitDepth::Eight) {
+            return Err(format!("expected 8 bits of red, green and blue, found {info:?}").into());
+        }
+        let pixels = bytes.chunks_exact(3).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        Ok(Self { width: info.width, height: info.height, pixels })
+    }
+
+    pub(crate) fn pixel(&self, x: u32, y: u32) -> [u8; 3] {
+        self.pixels[(y * self.width + x) as usize]
+    }
+}
