@@ -1,22 +1,34 @@
-//! `cargo xtask book`: the table of laws from the catalogue, and the book where mdbook is installed.
+//! `cargo xtask book`: the chapters of the laws from the catalogue, and the book where mdbook is installed.
+//!
+//! Every law has a page, with a picture of what its example does for each role that it plays. The pictures and their
+//! scenarios are drawn by `pulvis laws NAME --plot`.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use pulvis_contact::catalogue::{Kind, LawEntry, Parameter, Role};
 use pulvis_input::contact::entries;
 
 use crate::Outcome;
-use crate::process::{root, run, works};
+use crate::process::{capture, pulvis, root, run, scratch, works};
 
-fn chapter() -> PathBuf {
-    root().join("docs/book/src/laws.md")
+/// Where the chapters stand.
+fn source() -> PathBuf {
+    root().join("docs/book/src")
 }
 
-/// Writes the chapter and builds the book.
+/// Writes the chapters with their pictures and builds the book.
 pub fn write() -> Outcome {
-    std::fs::write(chapter(), laws()).map_err(|error| format!("{}: {error}", chapter().display()))?;
+    let folder = source().join("laws");
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    draw(&folder)?;
+    for (name, text) in chapters(&folder)? {
+        let path = source().join(name);
+        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
     if works(Command::new("mdbook").arg("--version")) {
         return run(Command::new("mdbook").arg("build").arg("docs/book").current_dir(root()));
     }
@@ -24,15 +36,122 @@ pub fn write() -> Outcome {
     Ok(())
 }
 
-/// Whether the chapter is what the catalogue says.
+/// Whether the chapters and pictures are what the catalogue and the program make of the laws.
 pub fn check() -> Outcome {
-    let known = std::fs::read_to_string(chapter()).unwrap_or_default();
-    if known == laws() {
-        Ok(())
-    } else {
-        Err("docs/book/src/laws.md is out of date; run `cargo xtask book`".to_owned())
+    let drawn = scratch("laws")?;
+    draw(&drawn)?;
+    let mut wrong = Vec::new();
+    for (name, text) in chapters(&drawn)? {
+        if std::fs::read_to_string(source().join(&name)).unwrap_or_default() != text {
+            wrong.push(name);
+        }
     }
+    for file in files(&drawn)? {
+        let known = std::fs::read(source().join("laws").join(&file)).unwrap_or_default();
+        if std::fs::read(drawn.join(&file)).map_err(|error| format!("{file}: {error}"))? != known {
+            wrong.push(format!("laws/{file}"));
+        }
+    }
+    if wrong.is_empty() {
+        return Ok(());
+    }
+    Err(format!("out of date below docs/book/src, run `cargo xtask book`: {}", wrong.join(", ")))
 }
+
+/// The names of the files in a folder.
+fn files(folder: &Path) -> Outcome<Vec<String>> {
+    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let names = std::fs::read_dir(folder)
+        .map_err(failed)?
+        .map(|file| file.map(|file| file.file_name().to_string_lossy().into_owned()).map_err(failed));
+    names.collect()
+}
+
+/// Every law of the catalogue in each of its roles.
+fn all() -> impl Iterator<Item = &'static LawEntry> {
+    Role::ALL.into_iter().flat_map(entries)
+}
+
+/// Whether a law has a page of its own.
+fn has_page(entry: &LawEntry) -> bool {
+    entry.name != "none" && !matches!(entry.role, Role::Conventions | Role::Expected)
+}
+
+/// What the picture of a law in a role is called, without its ending.
+fn stem(entry: &LawEntry) -> String {
+    format!("{}-{}", entry.role.key(), entry.name)
+}
+
+/// Draws all pictures into a folder, with the scenarios that they are drawn from.
+fn draw(folder: &Path) -> Outcome {
+    let program = pulvis()?;
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    for entry in all().filter(|entry| has_page(entry)) {
+        let path = |ending: &str| folder.join(stem(entry)).with_extension(ending);
+        let mut command = Command::new(&program);
+        command.args(["laws", entry.name, "--role", entry.role.key(), "--force"]);
+        command.arg("--plot").arg(path("svg")).arg("--scenario").arg(path("toml"));
+        let output = capture(&mut command)?;
+        if !output.status.success() {
+            return Err(format!("{}: {}", entry.name, String::from_utf8_lossy(&output.stderr)));
+        }
+    }
+    Ok(())
+}
+
+/// The chapters below docs/book/src by their names: the list of laws, one page for each law, and the summary. The
+/// scenarios of the pictures stand in the folder `drawn`.
+fn chapters(drawn: &Path) -> Outcome<Vec<(String, String)>> {
+    let mut chapters = vec![("laws.md".to_owned(), list())];
+    let mut names: Vec<&str> = Vec::new();
+    for entry in all().filter(|entry| has_page(entry)) {
+        if !names.contains(&entry.name) {
+            names.push(entry.name);
+            chapters.push((format!("laws/{}.md", entry.name), page(entry.name, drawn)?));
+        }
+    }
+    let summary = source().join("SUMMARY.md");
+    let known =
+        std::fs::read_to_string(&summary).map_err(|error| format!("{}: {error}", summary.display()))?;
+    let others = known.lines().filter(|line| !line.contains("](laws/"));
+    let mut text = String::new();
+    for line in others {
+        let _ = writeln!(text, "{line}");
+        if line.contains("](laws.md)") {
+            for name in &names {
+                let _ = writeln!(text, "  - [{name}](laws/{name}.md)");
+            }
+        }
+    }
+    chapters.push(("SUMMARY.md".to_owned(), text));
+    Ok(chapters)
+}
+
+/// The page of a law in all its roles.
+fn page(name: &str, drawn: &Path) -> Outcome<String> {
+    let mut text = format!("{WRITTEN}# `{name}`\n");
+    for entry in all().filter(|entry| has_page(entry) && entry.name == name) {
+        let _ = writeln!(text, "\n## {}", heading(entry.role));
+        describe(&mut text, entry);
+        let file = stem(entry);
+        let path = drawn.join(&file).with_extension("toml");
+        let scenario =
+            std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let command = if entry.role == Role::Viscosity { "collide" } else { "probe" };
+        let _ = writeln!(
+            text,
+            "\nWhat the example does, drawn by `pulvis {command}` from [this scenario]({file}.toml), which `pulvis laws \
+             {name} --role {} --scenario FILE` writes:\n\n![{name}, {}]({file}.svg)\n\n```toml\n{}\n```",
+            entry.role.key(),
+            entry.role.key(),
+            scenario.trim_end()
+        );
+    }
+    Ok(text)
+}
+
+/// The head of what is written here.
+const WRITTEN: &str = "<!-- Written by `cargo xtask book` from the catalogue of pulvis-contact. Changes belong into the laws' own files. -->\n";
 
 /// What a role is called in a heading.
 fn heading(role: Role) -> &'static str {
@@ -49,29 +168,32 @@ fn heading(role: Role) -> &'static str {
     }
 }
 
-/// The chapter.
-fn laws() -> String {
-    let mut text = String::from(
-        "<!-- Written by `cargo xtask book` from the catalogue of pulvis-contact. Changes belong into the laws' own files. -->\n\
-         # The laws\n\n\
-         A contact is composed of one law of each role. `pulvis laws` prints this list, `pulvis laws NAME` one law in full.\n\n\
+/// The list of all laws, and what has no page of its own.
+fn list() -> String {
+    let mut text = format!(
+        "{WRITTEN}# The laws\n\n\
+         A contact is composed of one law of each role. `pulvis laws` prints this list, `pulvis laws NAME` one law in full, \
+         `pulvis laws NAME --plot FILE.png` a picture of it. Each law has a page of its own.\n\n\
          | role | law | summary |\n| --- | --- | --- |\n",
     );
-    for entry in Role::ALL.into_iter().flat_map(entries) {
-        let _ = writeln!(text, "| `{}` | `{}` | {} |", entry.role.key(), entry.name, cell(entry.summary));
+    for entry in all() {
+        let link = if has_page(entry) {
+            format!("[`{0}`](laws/{0}.md)", entry.name)
+        } else {
+            format!("`{}`", entry.name)
+        };
+        let _ = writeln!(text, "| `{}` | {link} | {} |", entry.role.key(), cell(entry.summary));
     }
-    for role in Role::ALL {
-        let _ = writeln!(text, "\n## {}", heading(role));
-        for entry in entries(role).into_iter().filter(|entry| entry.name != "none") {
-            describe(&mut text, entry);
-        }
+    for entry in all().filter(|entry| entry.name != "none" && !has_page(entry)) {
+        let _ = writeln!(text, "\n## {}", heading(entry.role));
+        describe(&mut text, entry);
     }
     text
 }
 
 // Writing to a String cannot fail.
 fn describe(text: &mut String, entry: &LawEntry) {
-    let _ = writeln!(text, "\n### `{}`\n\n{}.\n", entry.name, capitalised(entry.summary));
+    let _ = writeln!(text, "\n{}.\n", capitalised(entry.summary));
     let _ = writeln!(text, "```text\n{}\n```\n", entry.equations);
     let _ = writeln!(
         text,

@@ -16,12 +16,12 @@ pub fn run_all() -> Outcome {
     let steps: [Step; 10] = [
         ("formatting", || run(&mut cargo(&["fmt", "--all", "--check"]))),
         ("documents", check_docs::run),
-        ("table of laws", book::check),
         ("lints", lints),
         ("API documentation", documentation),
         ("tests", tests::run_all),
         ("threads", threads::loom),
         ("values of the laws", verification),
+        ("pages of the laws", book::check),
         ("scenarios", scenarios::run),
         ("experiments", || experiments::run(None)),
     ];

@@ -32,8 +32,8 @@ usage: cargo xtask <task>
   miri                 looks for undefined behaviour in what threads share, where a nightly Miri is installed
   golden-bits          writes the bits of the runs of crates/pulvis-cli/tests/golden_bits anew
   figures              makes the pictures of README and docs anew
-  book                 writes the book's table of laws from the catalogue, builds the book if mdbook is there
-  book --check         says whether that table is up to date
+  book                 writes the book's pages of laws from the catalogue and the program, builds the book if mdbook is there
+  book --check         says whether those pages and their pictures are up to date
   check-docs           paths named in ARCHITECTURE.md, length of files, paths of single machines
 ";
 

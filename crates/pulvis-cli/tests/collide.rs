@@ -137,6 +137,9 @@ fn bad_input_ends_with_exit_code_2_and_says_where() {
         (vec!["collide", EXPERIMENT, "--format", "xml"], "xml"),
         (vec!["collide"], "FILE"),
         (vec!["laws", "ludign"], "did you mean `luding`?"),
+        (vec!["laws", "jkr", "--plot", "e.pdf"], "choose one of: png, svg"),
+        (vec!["laws", "jkr", "--role", "rolling", "--plot", "e.png"], "it plays: normal"),
+        (vec!["laws", "conventions", "--plot", "e.png"], "no forces that could be drawn"),
         (vec!["smash"], "smash"),
     ] {
         let output = pulvis(&arguments);
@@ -158,6 +161,20 @@ fn every_law_is_listed_and_described_in_full() {
     }
     let luding = out(&pulvis(&["laws", "luding"]));
     assert!(luding.contains("φ_f") && luding.contains("N/m") && luding.contains("arXiv:1503.03720"));
+}
+
+#[test]
+fn the_picture_of_a_law_comes_with_the_scenario_that_draws_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (one, other, scenario) = (path("one.svg"), path("other.svg"), path("jkr.toml"));
+    let output = pulvis(&["laws", "jkr", "--plot", &one, "--scenario", &scenario]);
+    assert_eq!(output.status.code(), Some(0), "{}", error(&output));
+    assert_eq!(pulvis(&["probe", &scenario, "--plot", &other]).status.code(), Some(0));
+    assert_eq!(std::fs::read(&one).unwrap(), std::fs::read(&other).unwrap());
+    let again = pulvis(&["laws", "jkr", "--plot", &one]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(error(&again).contains("--force"), "{}", error(&again));
 }
 
 #[test]
