@@ -24,6 +24,7 @@ const USAGE: &str = "\
 usage: cargo xtask <task>
 
   test                 all tests, and the VTK files read by Python's VTK where it can be installed
+  slow                 every law in beds of 1000 grains, and a hundred times as many random paths (half an hour)
   ci                   everything that must hold before a change is merged
   experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
   features FOLDER      says what is seen in the tablet's run in FOLDER, and whether it is what was asked for
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words[..] {
         ["test"] => tests::run_all(),
+        ["slow"] => tests::run_slow(),
         ["ci"] => ci::run_all(),
         ["experiments"] => experiments::run(None),
         ["experiments", folder] => experiments::run(Some(folder)),

@@ -18,6 +18,23 @@ pub fn run_all() -> Outcome {
     sample_files()
 }
 
+/// What takes too long for every change, in the release build.
+pub fn run_slow() -> Outcome {
+    let beds = ["test", "--release", "-p", "pulvis-core", "--test", "beds", "--", "--ignored", "--nocapture"];
+    run(&mut cargo(&beds))?;
+    let mut paths = cargo(&[
+        "test",
+        "--release",
+        "-p",
+        "pulvis-contact",
+        "--test",
+        "law_conformance",
+        "--test",
+        "law_friction",
+    ]);
+    run(paths.env("PULVIS_TESTKIT_CASES", "100"))
+}
+
 /// Writes the bits anew that the runs of `crates/pulvis-cli/tests/golden_bits` give now.
 pub fn renew_golden_bits() -> Outcome {
     let mut command = cargo(&["test", "--quiet", "-p", "pulvis-cli", "--test", "golden_bits"]);

@@ -165,13 +165,13 @@ fn every_law_is_listed_and_described_in_full() {
 
 #[test]
 fn the_picture_of_a_law_comes_with_the_scenario_that_draws_the_same() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let folder = folder("portrait");
+    let path = |name: &str| folder.join(name).to_string_lossy().into_owned();
     let (one, other, scenario) = (path("one.svg"), path("other.svg"), path("jkr.toml"));
     let output = pulvis(&["laws", "jkr", "--plot", &one, "--scenario", &scenario]);
     assert_eq!(output.status.code(), Some(0), "{}", error(&output));
     assert_eq!(pulvis(&["probe", &scenario, "--plot", &other]).status.code(), Some(0));
-    assert_eq!(std::fs::read(&one).unwrap(), std::fs::read(&other).unwrap());
+    assert_eq!(fs::read(&one).unwrap(), fs::read(&other).unwrap());
     let again = pulvis(&["laws", "jkr", "--plot", &one]);
     assert_eq!(again.status.code(), Some(2));
     assert!(error(&again).contains("--force"), "{}", error(&again));

@@ -36,3 +36,12 @@ fn an_unknown_law_is_bad_input_with_its_neighbour() {
     assert!(message.contains("did you mean `walton-johnson`?"), "{message}");
     assert!(output.stdout.is_empty());
 }
+
+#[test]
+fn a_miss_is_named_and_ends_with_exit_code_1() {
+    let output = pulvis(&["verify", "hertz", "--tolerance-factor", "1e-12"]);
+    assert_eq!(output.status.code(), Some(1));
+    let shown = text(&output.stdout);
+    assert!(shown.contains("MISS hertz: ") && !shown.ends_with(" 0 of 9 checks missed\n"), "{shown}");
+    assert_eq!(pulvis(&["verify", "--tolerance-factor", "-1"]).status.code(), Some(2));
+}

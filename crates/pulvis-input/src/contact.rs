@@ -5,11 +5,13 @@ use crate::material::MaterialProperties;
 use crate::parameters::{read_parameters, refuse_parameter};
 use crate::problem::Problem;
 use crate::reader::TableReader;
+use pulvis_contact::catalogue::mixing::Mixing;
 use pulvis_contact::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Role, Value, Values};
 use pulvis_contact::{
     ContactLaws, ContactModel, Conventions, ExpectedLoading, Friction, NonContact, Normal, Pair, Viscosity,
     bond, friction,
 };
+use std::fmt;
 
 /// A law by its name in the catalogue, with its parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +22,44 @@ pub struct NamedLaw {
     pub name: &'static str,
     /// Its parameters in SI, defaults filled in.
     pub values: Values,
+    /// The rules of those parameters that follow from the properties of the materials, by the parameters' names.
+    pub mixed: Vec<(&'static str, &'static Mixing)>,
+}
+
+/// The name and the parameters: `hertz: effective_modulus = 3.8e10 Pa (effective-modulus of the materials)`.
+impl fmt::Display for NamedLaw {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(self.name)?;
+        let entry = entries(self.role).into_iter().find(|entry| entry.name == self.name);
+        let parameters = entry.map_or(&[][..], |entry| entry.parameters);
+        let given =
+            parameters.iter().filter_map(|parameter| Some((parameter, self.values.get(parameter.name)?)));
+        for (number, (parameter, value)) in given.enumerate() {
+            out.write_str(if number == 0 { ": " } else { ", " })?;
+            match (value, parameter.unit().as_str()) {
+                (Value::Choice(name), _) => write!(out, "{} = {name}", parameter.name)?,
+                (Value::Number(number), "1") => write!(out, "{} = {}", parameter.name, six_digits(*number))?,
+                (Value::Number(number), unit) => {
+                    write!(out, "{} = {} {unit}", parameter.name, six_digits(*number))?;
+                }
+            }
+            if let Some((_, mixing)) = self.mixed.iter().find(|(name, _)| *name == parameter.name) {
+                write!(out, " (of the materials by {})", mixing.name)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A number with at most six digits.
+fn six_digits(number: f64) -> String {
+    let rounded: f64 = format!("{number:.5e}").parse().unwrap_or(number);
+    let size = rounded.abs();
+    if rounded == 0.0 || (1e-3..1e6).contains(&size) || !rounded.is_finite() {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
 }
 
 /// A contact, ready to be computed, and the names and parameters that it was made from.
@@ -167,7 +207,7 @@ fn read_law<L>(
         let unknown = || contact.refuse(role.key(), Problem::unknown_choice("none", &names));
         let none = || {
             let none = entries.iter().find(|entry| entry.name == "none")?;
-            Some(NamedLaw { role, name: none.name, values: Values::new() })
+            Some(NamedLaw { role, name: none.name, values: Values::new(), mixed: Vec::new() })
         };
         let named = known.law(role).or_else(none).ok_or_else(unknown)?;
         let law = build(named.name, &named.values).ok_or_else(unknown)?;
@@ -177,27 +217,29 @@ fn read_law<L>(
     let unknown = |table: &TableReader<'_>| table.refuse("law", Problem::unknown_choice(name, &names));
     let entry = entries.iter().find(|entry| entry.name == name).ok_or_else(|| unknown(&table))?;
     let law = read_parameters(&mut table, entry.parameters).and_then(|mut values| {
+        let mut mixed = Vec::new();
         for parameter in entry.parameters {
-            mix(&table, parameter, known.materials, &mut values)?;
+            mixed.extend(mix(&table, parameter, known.materials, &mut values)?);
         }
         let values = entry.complete(&values).map_err(|error| refuse_parameter(&table, error))?;
         let law = build(name, &values).ok_or_else(|| unknown(&table))?;
         let law = law.map_err(|error| refuse_parameter(&table, error))?;
-        Ok((law, NamedLaw { role, name: entry.name, values }))
+        Ok((law, NamedLaw { role, name: entry.name, values, mixed }))
     });
     table.finish();
     law
 }
 
-/// Sets a parameter that is not given from the properties of the two materials, where there is a rule for that.
+/// Sets a parameter that is not given from the properties of the two materials, where there is a rule for that; answers
+/// with its name and the rule.
 fn mix(
     table: &TableReader<'_>,
-    parameter: &Parameter,
+    parameter: &'static Parameter,
     materials: Option<[&MaterialProperties; 2]>,
     values: &mut Values,
-) -> Result<(), Reported> {
+) -> Result<Option<(&'static str, &'static Mixing)>, Reported> {
     let Some(mixing) = parameter.mixing.filter(|_| values.get(parameter.name).is_none()) else {
-        return Ok(());
+        return Ok(None);
     };
     let of = |material: &MaterialProperties| -> Option<Vec<f64>> {
         mixing.needs.iter().map(|property| material.number(property.name)).collect()
@@ -206,7 +248,7 @@ fn mix(
         && let (Some(one), Some(other)) = (of(one), of(other))
     {
         values.set(parameter.name, Value::Number((mixing.rule)(&one, &other)));
-        return Ok(());
+        return Ok(Some((parameter.name, mixing)));
     }
     let needs: Vec<String> = mixing.needs.iter().map(|property| format!("`{}`", property.name)).collect();
     let needs = needs.join(" and ");
@@ -227,5 +269,5 @@ fn read_choices<L: Law>(contact: &mut TableReader<'_>, known: Known<'_>) -> Resu
     };
     let built = entry.complete(&given).and_then(|values| Ok((L::from_values(&values)?, values)));
     let (choices, values) = built.map_err(|error| refuse_parameter(contact, error))?;
-    Ok((choices, NamedLaw { role: entry.role, name: entry.name, values }))
+    Ok((choices, NamedLaw { role: entry.role, name: entry.name, values, mixed: Vec::new() }))
 }

@@ -6,7 +6,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
+use pulvis_contact::catalogue::Role;
 use pulvis_contact::theory::CriticalVelocities;
+use pulvis_input::NamedLaw;
 use pulvis_input::scenario::Scenario;
 use pulvis_lab::protocol::{ContactForecast, Preflight, StageForecast, Sticking, memory_forecast, preflight};
 
@@ -193,7 +195,12 @@ fn walls(scenario: &Scenario) -> String {
 
 fn describe_contact(text: &mut String, contact: &ContactForecast) {
     let name = format!("contact {}", contact.between);
-    let _ = writeln!(text, "{name:<17} law {}, shortest motion {:.4e} s", contact.law, contact.contact_time);
+    let _ = writeln!(text, "{name:<17} shortest motion {:.4e} s", contact.contact_time);
+    let is_said =
+        |law: &&NamedLaw| law.name != "none" && !matches!(law.role, Role::Conventions | Role::Expected);
+    for law in contact.laws.iter().filter(is_said) {
+        let _ = writeln!(text, "{:<17} {} {law}", "", law.role.key());
+    }
     let is_damped = !matches!(contact.sticking, Sticking::ClosedForm(_));
     if let Some(velocity) = contact.plastic_velocity.filter(|velocity| velocity.is_finite()) {
         let without = if is_damped { ", dashpot left out" } else { "" };

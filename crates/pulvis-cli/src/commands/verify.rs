@@ -19,6 +19,18 @@ pub struct Arguments {
     /// How the table of checks is written; csv and json also say why an error is allowed, and where a value is from
     #[arg(long, value_parser = ["text", "csv", "json"], default_value = "text")]
     format: String,
+    /// Multiply every tolerance: with less than 1 it shows which checks have little to spare
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = factor)]
+    tolerance_factor: f64,
+}
+
+fn factor(text: &str) -> Result<f64, String> {
+    let factor: f64 = text.parse().map_err(|_| "expected a number".to_owned())?;
+    if factor >= 0.0 && factor.is_finite() {
+        Ok(factor)
+    } else {
+        Err("expected a number of at least 0".to_owned())
+    }
 }
 
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
@@ -32,7 +44,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             return Err(unknown(law, &known));
         }
     }
-    let checks: Vec<Check> = chosen.into_iter().flat_map(verify).collect();
+    let mut checks: Vec<Check> = chosen.into_iter().flat_map(verify).collect();
+    checks.iter_mut().for_each(|check| check.tolerance *= arguments.tolerance_factor);
     print(&shown(&checks, &arguments.format)?)?;
     let missed = checks.iter().any(|check| !check.passes());
     Ok(if missed { ExitCode::FAILURE } else { ExitCode::SUCCESS })

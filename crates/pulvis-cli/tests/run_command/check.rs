@@ -20,6 +20,8 @@ fn check_says_what_the_run_will_be_like_and_writes_nothing() {
         "particles         27 with radii 1.0000e-3 to 1.0000e-3 m",
         "masses            8.3776e-6 to 8.3776e-6 kg, together 2.2619e-4 kg",
         "walls             x-low, x-high, y-low, y-high, z-low, z-high",
+        "contact grain-grain shortest motion 2.8755e-4 s",
+        "                  normal luding: k1 = 100 N/m, kp = 500 N/m, kc = 100 N/m, phi_f = 0.05",
         "fully plastic above v_p = 3.0538e-1 m/s",
         "sticks from 1.5269e-1 to 3.5262e-1 m/s",
         "mix: time step 5.7509e-6 s, 174 steps, shortest motion 2.8755e-4 s (grain-grain)",
@@ -193,4 +195,14 @@ fn several_files_are_checked_in_one_go() {
         "{}",
         error(&output)
     );
+}
+
+#[test]
+fn check_prints_the_numbers_that_follow_from_the_materials() {
+    let hertz = "normal = { law = \"hertz\" }";
+    let elastic = "[materials.grain]\nyoung_modulus = \"6e7 Pa\"\npoisson_ratio = 0.25";
+    let text = checked("mixed", &[("[materials.grain]", elastic), (NORMAL, hertz)]);
+    // Two equal bodies: E* = E/(2 (1 − ν²)) = 6e7/1.875 Pa.
+    let line = "normal hertz: effective_modulus = 3.2e7 Pa (of the materials by ";
+    assert!(text.contains(line), "no `{line}` in\n{text}");
 }

@@ -72,6 +72,16 @@ impl Jkr {
         Self { effective_modulus, work_of_adhesion, separation_scale }
     }
 
+    /// Effective modulus E* [Pa].
+    pub fn effective_modulus(&self) -> f64 {
+        self.effective_modulus
+    }
+
+    /// Work of adhesion Γ of both surfaces together [J/m²].
+    pub fn work_of_adhesion(&self) -> f64 {
+        self.work_of_adhesion
+    }
+
     /// a_sep [m].
     fn separation_radius(&self, radius: f64) -> f64 {
         let root = elementary::cbrt(radius);

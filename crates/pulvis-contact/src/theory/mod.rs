@@ -36,6 +36,7 @@ mod duration;
 pub mod eepa;
 pub mod energies;
 mod error;
+mod head_on;
 pub mod hertz;
 pub mod jkr;
 pub mod linear;
@@ -51,6 +52,7 @@ pub mod walton_braun;
 pub mod walton_johnson;
 
 pub use error::TheoryError;
+pub use head_on::{HeadOn, head_on};
 pub use hertz::HertzPair;
 pub use jkr::JkrPair;
 pub use linear::LinearSpringDashpot;

@@ -3,7 +3,7 @@
 use super::outcome::Regime;
 use super::problem::Problem;
 use pulvis_contact::Viscosity;
-use pulvis_contact::theory::{self, LinearSpringDashpot};
+use pulvis_contact::theory::{self, HeadOn, LinearSpringDashpot, head_on};
 use pulvis_input::collision::{CollisionCase, luding_pair};
 
 /// The closed form of a collision.
@@ -13,24 +13,25 @@ pub struct ClosedForm {
     pub regime: Regime,
     /// Coefficient of restitution [1].
     pub restitution: f64,
-    /// Largest overlap [m].
-    pub overlap_max: f64,
-    /// Where it ends, as [`super::Outcome::overlap_end`] [m].
-    pub overlap_end: f64,
+    /// Largest overlap, where it is known [m].
+    pub overlap_max: Option<f64>,
+    /// Where it ends, as [`super::Outcome::overlap_end`], where that is known [m].
+    pub overlap_end: Option<f64>,
     /// Time from touch to opening [s].
     pub contact_duration: Option<f64>,
-    /// Energy lost until the end [J].
-    pub energy_dissipated: f64,
+    /// Energy lost until the end, where it is known [J].
+    pub energy_dissipated: Option<f64>,
 }
 
 /// The closed form of a collision: of the Luding and the linear law without dashpot and with any
-/// attraction, of elastic contacts with a constant dashpot and no attraction. Head on only.
+/// attraction, of elastic contacts with a constant dashpot and no attraction, and of those that [`head_on`] knows. Head
+/// on only.
 pub fn closed_form(case: &CollisionCase) -> Option<ClosedForm> {
     if case.incidence.is_some() {
         return None;
     }
     let problem = Problem::new(case);
-    let pair = luding_pair(&case.contact, &problem.pair)?;
+    let Some(pair) = luding_pair(&case.contact, &problem.pair) else { return other(case, &problem) };
     let dashpot = dashpot(&problem)?;
     if dashpot == 0.0 {
         let result = pair.restitution(case.velocity);
@@ -38,10 +39,10 @@ pub fn closed_form(case: &CollisionCase) -> Option<ClosedForm> {
         return Some(ClosedForm {
             regime: if rebound { Regime::Rebound } else { Regime::Stick },
             restitution: result.value,
-            overlap_max: result.overlap_max,
-            overlap_end: result.overlap_end,
+            overlap_max: Some(result.overlap_max),
+            overlap_end: Some(result.overlap_end),
             contact_duration: pair.contact_duration(pair.touch_velocity(case.velocity)),
-            energy_dissipated: result.energy_dissipated,
+            energy_dissipated: Some(result.energy_dissipated),
         });
     }
     let parameters = pair.parameters();
@@ -55,10 +56,27 @@ pub fn closed_form(case: &CollisionCase) -> Option<ClosedForm> {
     Some(ClosedForm {
         regime: if restitution > 0.0 { Regime::Rebound } else { Regime::Stick },
         restitution,
-        overlap_max: oscillator.overlap_max(case.velocity),
-        overlap_end: 0.0,
+        overlap_max: Some(oscillator.overlap_max(case.velocity)),
+        overlap_end: Some(0.0),
         contact_duration: duration.is_finite().then_some(duration),
-        energy_dissipated: problem.kinetic(case.velocity) * (1.0 - restitution * restitution),
+        energy_dissipated: Some(problem.kinetic(case.velocity) * (1.0 - restitution * restitution)),
+    })
+}
+
+/// The closed form of a contact that is not Luding's.
+fn other(case: &CollisionCase, problem: &Problem<'_>) -> Option<ClosedForm> {
+    let HeadOn { restitution, overlap_max, contact_duration } =
+        head_on(&case.contact, &problem.pair, case.velocity)?;
+    let rebounds = restitution > 0.0;
+    let lost = problem.kinetic(case.velocity) * (1.0 - restitution * restitution);
+    Some(ClosedForm {
+        regime: if rebounds { Regime::Rebound } else { Regime::Stick },
+        restitution,
+        overlap_max,
+        overlap_end: None,
+        contact_duration,
+        // A pair that sticks has not lost everything at its first stop.
+        energy_dissipated: rebounds.then_some(lost),
     })
 }
 

@@ -157,8 +157,8 @@ fn cells(point: &SweepPoint) -> [Cell; COLUMNS.len()] {
         outcome.regime.name().into(),
         outcome.contact_duration.into(),
         outcome.energy_dissipated.into(),
-        theory.map(|theory| theory.overlap_max).into(),
-        theory.map(|theory| theory.overlap_end).into(),
+        theory.and_then(|theory| theory.overlap_max).into(),
+        theory.and_then(|theory| theory.overlap_end).into(),
         outcome.stop_branch.into(),
         outcome.energy_error.into(),
     ]

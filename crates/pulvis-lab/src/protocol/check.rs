@@ -6,6 +6,7 @@ use std::time::Instant;
 use pulvis_contact::theory::{CriticalVelocities, LudingPair};
 use pulvis_contact::{ContactModel, Pair};
 use pulvis_core::Particle;
+use pulvis_input::NamedLaw;
 use pulvis_input::collision::{Bodies, Sphere, luding_pair};
 use pulvis_input::scenario::{Scenario, Stage};
 use pulvis_math::elementary;
@@ -64,8 +65,8 @@ pub struct Preflight {
 pub struct ContactForecast {
     /// The materials.
     pub between: String,
-    /// Name of the normal law.
-    pub law: &'static str,
+    /// The laws, with their parameters.
+    pub laws: Vec<NamedLaw>,
     /// Duration of the shortest motion [s].
     pub contact_time: f64,
     /// Relative velocity at which the contact becomes fully plastic without dashpot, v_p [m/s]; Luding law
@@ -208,7 +209,8 @@ fn forecasts(scenario: &Scenario, particles: &[Particle]) -> Vec<ContactForecast
             let (body, partner) = typical_bodies(particles, contact.materials)?;
             let names = contact.materials.map(|material| scenario.materials[material].name.as_str());
             let searches = began.elapsed().as_secs_f64() < SEARCH;
-            Some(forecast(names.join("-"), &contact.model, body, partner, searches))
+            let forecast = forecast(names.join("-"), &contact.model, body, partner, searches);
+            Some(ContactForecast { laws: contact.laws.clone(), ..forecast })
         })
         .collect()
 }
@@ -263,7 +265,7 @@ fn forecast(
     };
     ContactForecast {
         between,
-        law: model.normal.entry().name,
+        laws: Vec::new(),
         contact_time: model.shortest_contact_time(body, partner),
         plastic_velocity: theory.as_ref().map(LudingPair::v_p0),
         sticking,

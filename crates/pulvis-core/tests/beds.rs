@@ -1,0 +1,128 @@
+//! Every law of the catalogue in a bed with friction: the ledger closes, and closes better with shorter steps.
+//!
+//! A small bed runs with the tests. `cargo test --release -p pulvis-core --test beds -- --ignored` runs 1000 grains
+//! over 10 000 steps for every law.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::*;
+use pulvis_boundary::Cuboid;
+use pulvis_contact::catalogue::{LawEntry, Role};
+use pulvis_contact::friction;
+use pulvis_contact::{
+    ContactLaws, ContactModel, ExpectedLoading, Linear, NonContact, Normal, Pair, Viscosity,
+};
+use pulvis_core::{Domain, Setup};
+use pulvis_math::Vector3;
+use pulvis_packing::{gaussian_vector, random_positions, random_stream};
+use pulvis_testkit::parameters::example;
+
+/// Typical speed of the grains [m/s].
+const SPEED: f64 = 0.1;
+
+/// Steps in the shortest contact that a scenario takes unless told otherwise.
+const AUTOMATIC: f64 = 50.0;
+
+/// The steps of a bed, and how many grains it has.
+#[derive(Clone, Copy)]
+struct Size {
+    grains: usize,
+    steps: usize,
+}
+
+/// What the examples of all laws make, each by its name: normal laws with sliding friction, other laws beside a
+/// plain normal law.
+fn models() -> Vec<(String, ContactModel)> {
+    let roles = Role::ALL.into_iter().flat_map(|role| {
+        let entries: Vec<&LawEntry> = match role {
+            Role::Normal => Normal::ENTRIES.iter().collect(),
+            Role::NonContact => NonContact::ENTRIES.iter().collect(),
+            Role::Viscosity => Viscosity::ENTRIES.iter().collect(),
+            Role::Sliding | Role::Rolling | Role::Torsion => friction::entries(role),
+            Role::Conventions | Role::Expected => Vec::new(),
+        };
+        entries
+    });
+    roles.filter(|entry| entry.name != "none").map(|entry| (label(entry), model(entry))).collect()
+}
+
+fn label(entry: &LawEntry) -> String {
+    format!("{} {}", entry.role.key(), entry.name)
+}
+
+fn model(entry: &LawEntry) -> ContactModel {
+    let (name, values) = example(entry);
+    let hertz = || Normal::build("hertz", &example(named("hertz")).1).unwrap().unwrap();
+    let mut laws = ContactLaws {
+        expected: ExpectedLoading { speed: 2.0 * SPEED, ..Default::default() },
+        ..Default::default()
+    };
+    let mut normal: Normal = Linear::new(100.0, 0.0).into();
+    match entry.role {
+        Role::Normal => normal = Normal::build(&name, &values).unwrap().unwrap(),
+        Role::NonContact => laws.noncontact = NonContact::build(&name, &values).unwrap().unwrap(),
+        Role::Viscosity => {
+            normal = hertz();
+            laws.viscosity = Viscosity::build(&name, &values).unwrap().unwrap();
+        }
+        role => {
+            normal = hertz();
+            let law = friction::build(role, &name, &values).unwrap().unwrap();
+            match role {
+                Role::Sliding => laws.sliding = law,
+                Role::Rolling => laws.rolling = law,
+                _ => laws.torsion = law,
+            }
+        }
+    }
+    let grain = sphere(Vector3::zero(), Vector3::zero(), RADIUS);
+    let pair = Pair::spheres(grain.mass, grain.mass, RADIUS, RADIUS);
+    if laws.sliding.is_none() {
+        laws.sliding = Some(slider(0.2 * normal.max_stiffness(&pair, &laws.expected), 0.0, 0.3));
+    }
+    ContactModel { normal, laws }
+}
+
+fn named(name: &str) -> &'static LawEntry {
+    Normal::ENTRIES.iter().find(|entry| entry.name == name).unwrap()
+}
+
+/// Grains at a solid fraction of 0.4 in a periodic cube, which move and turn.
+fn bed(grains: usize, model: ContactModel) -> Setup {
+    let volume = grains as f64 * sphere(Vector3::zero(), Vector3::zero(), RADIUS).mass / 2500.0;
+    let edge = pulvis_math::elementary::powf(volume / 0.4, 1.0 / 3.0);
+    let upper = vector(edge, edge, edge);
+    let domain = Domain::periodic(Vector3::zero(), upper, [true; 3]);
+    let mut random = random_stream(5);
+    let region = Cuboid { lower: Vector3::zero(), upper };
+    let radii: Vec<f64> = (0..grains).map(|grain| RADIUS * (0.8 + 0.2 * (grain % 3) as f64)).collect();
+    let places = random_positions(&vec![1.05 * RADIUS; grains], &region, &domain, &[], &mut random).unwrap();
+    let particles = places.into_iter().zip(radii).map(|(place, radius)| {
+        let mut grain = sphere(place, gaussian_vector(&mut random) * SPEED, radius.min(RADIUS));
+        grain.angular_velocity = gaussian_vector(&mut random) * (SPEED / RADIUS);
+        grain
+    });
+    Setup { domain, ..setup(particles.collect(), model) }
+}
+
+#[test]
+fn explore() {
+    for (label, model) in models() {
+        let began = std::time::Instant::now();
+        let mut errors = Vec::new();
+        let mut scale = 0.0;
+        for times in [1, 2, 4] {
+            let mut simulation = start(bed(125, model), AUTOMATIC * times as f64);
+            errors.push(advance_watching(&mut simulation, 2000 * times, 50));
+            scale = simulation.ledger().dissipated() / simulation.ledger().scale;
+        }
+        println!(
+            "{label:40} {:.1e} {:.1e} {:.1e}  lost {scale:.2} {:.1} s",
+            errors[0],
+            errors[1],
+            errors[2],
+            began.elapsed().as_secs_f64()
+        );
+    }
+}
