@@ -40,7 +40,7 @@ fn models() -> Vec<(String, ContactModel)> {
             Role::NonContact => NonContact::ENTRIES.iter().collect(),
             Role::Viscosity => Viscosity::ENTRIES.iter().collect(),
             Role::Sliding | Role::Rolling | Role::Torsion => friction::entries(role),
-            Role::Conventions | Role::Expected => Vec::new(),
+            Role::Bond | Role::Conventions | Role::Expected => Vec::new(),
         };
         entries
     });
