@@ -79,13 +79,10 @@ fn collided(entry: &LawEntry) -> Result<Portrait, PortraitError> {
 /// Any other law, on a path.
 fn probed(entry: &LawEntry) -> Result<Portrait, PortraitError> {
     let read = |text: &str| ProbeScenario::from_document(&Document::from_str("portrait.toml", text)?);
-    let drafts = scene::contacts(entry)
-        .into_iter()
-        .flat_map(|contact| [false, true].map(|timed| Scene { entry, contact: contact.clone(), timed }));
-    let drafts: Vec<_> = drafts.collect();
-    let texts = drafts.iter().map(Scene::draft).collect();
-    let (found, _) = first_readable(entry, texts, read)?;
-    let scene = drafts.iter().find(|scene| scene.draft() == found);
+    let scenes = Scene::all(entry);
+    let drafts = scenes.iter().map(Scene::draft).collect();
+    let (found, _) = first_readable(entry, drafts, read)?;
+    let scene = scenes.iter().find(|scene| scene.draft() == found);
     let candidates = scene.map(Scene::candidates).unwrap_or_default();
     let drawn = candidates.into_iter().filter_map(|text| {
         let scenario = read(&text).ok()?;

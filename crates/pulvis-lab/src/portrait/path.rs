@@ -6,7 +6,7 @@ use pulvis_math::elementary;
 use crate::probe::ProbeSample;
 
 /// Radius of the bodies [m].
-const RADIUS: f64 = 1.0e-3;
+pub(super) const RADIUS: f64 = 1.0e-3;
 
 /// Three to the decade, from the `first` power of ten up to the `last`.
 fn decades(first: i32, last: i32) -> impl Iterator<Item = f64> {

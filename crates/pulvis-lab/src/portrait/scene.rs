@@ -1,6 +1,7 @@
 //! Scenarios around the example of a law.
 
-use pulvis_contact::catalogue::{LawEntry, Role};
+use pulvis_contact::catalogue::{Kind, LawEntry, Parameter, Range, Role};
+use pulvis_math::Dimension;
 
 use super::path;
 
@@ -27,11 +28,14 @@ const HOSTS_OF_DASHPOTS: [&str; 3] = [
     "law = \"hertz\"\neffective_modulus = \"4e10 Pa\"",
 ];
 
+/// What the bodies are surrounded by: nothing that a law would read, or else a temperature.
+const SURROUNDINGS: [&str; 2] = ["", "temperature = \"505 K\"\n"];
+
 /// How long a leg takes where it is not known what is a good time, for a draft [s].
 const ANY_DURATION: f64 = 1.0e-3;
 
 /// The laws of a contact that shows the example: the example alone if it is a normal law, or beside others.
-pub(super) fn contacts(entry: &LawEntry) -> Vec<String> {
+fn contacts(entry: &LawEntry) -> Vec<String> {
     let table = |role: Role, law: &str| format!("\n[contact.{}]\n{law}\n", role.key());
     if entry.role == Role::Normal {
         return vec![table(Role::Normal, entry.example)];
@@ -42,23 +46,57 @@ pub(super) fn contacts(entry: &LawEntry) -> Vec<String> {
 
 /// Collisions that show the example of a dashpot, at speeds of all scales.
 pub(super) fn collisions(entry: &LawEntry) -> Vec<String> {
+    let bodies = bodies(entry);
     let text = |speed: &f64, contact: &str| {
         let speed = quoted(*speed, "m/s");
-        format!("title = \"{}\"\n\n[collision]\n{BODIES}velocity = {speed}\n{contact}", entry.name)
+        format!("title = \"{}\"\n\n[collision]\n{bodies}velocity = {speed}\n{contact}", entry.name)
     };
     let contacts = contacts(entry);
     SPEEDS.iter().flat_map(|speed| contacts.iter().map(move |contact| text(speed, contact))).collect()
 }
 
-/// The laws of a contact, to be led along a path.
-pub(super) struct Scene<'e> {
-    pub(super) entry: &'e LawEntry,
-    pub(super) contact: String,
-    /// Whether the path has times.
-    pub(super) timed: bool,
+/// The bodies of the picture of a law, with the quantities that it reads.
+fn bodies(entry: &LawEntry) -> String {
+    let quantities = entry.particle_quantities.iter().map(|quantity| {
+        let Parameter { name, kind, .. } = quantity;
+        let (size, signed) = match kind {
+            Kind::Number { dimension: Dimension::LENGTH, range, .. } => {
+                (0.1 * path::RADIUS, *range == Range::Any)
+            }
+            Kind::Number { range, .. } => (1.0e-12, *range == Range::Any),
+            Kind::Choice(_) => (0.0, false),
+        };
+        // Of opposite signs, for attraction.
+        let values = [size, if signed { -size } else { size }].map(|value| quoted(value, &quantity.unit()));
+        format!("{name} = [{}]\n", values.join(", "))
+    });
+    quantities.fold(BODIES.to_owned(), |text, line| text + &line)
 }
 
-impl Scene<'_> {
+/// The laws of a contact, to be led along a path.
+#[derive(Clone)]
+pub(super) struct Scene<'e> {
+    entry: &'e LawEntry,
+    contact: String,
+    surroundings: &'static str,
+    /// Whether the path has times.
+    timed: bool,
+}
+
+impl<'e> Scene<'e> {
+    /// Scenes that may show a law, the plainest first.
+    pub(super) fn all(entry: &'e LawEntry) -> Vec<Self> {
+        let mut scenes = Vec::new();
+        for contact in contacts(entry) {
+            for surroundings in SURROUNDINGS {
+                for timed in [false, true] {
+                    scenes.push(Self { entry, contact: contact.clone(), surroundings, timed });
+                }
+            }
+        }
+        scenes
+    }
+
     /// A scenario with any path.
     pub(super) fn draft(&self) -> String {
         self.with_path(path::paths(self.entry.role).swap_remove(0), ANY_DURATION)
@@ -79,7 +117,12 @@ impl Scene<'_> {
             let texts: Vec<String> = turns.iter().map(|turn| quoted(*turn, "m")).collect();
             format!("[{}]", texts.join(", "))
         };
-        let mut text = format!("title = \"{}\"\n\n[probe]\n{BODIES}", self.entry.name);
+        let mut text = format!(
+            "title = \"{}\"\n{}\n[probe]\n{}",
+            self.entry.name,
+            self.surroundings,
+            bodies(self.entry)
+        );
         text += &format!("overlap = {}\n", lengths(&overlap));
         let motion = match self.entry.role {
             Role::Sliding => Some("shear"),
