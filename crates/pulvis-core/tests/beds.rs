@@ -13,7 +13,7 @@ use pulvis_contact::friction;
 use pulvis_contact::{
     ContactLaws, ContactModel, ExpectedLoading, Linear, NonContact, Normal, Pair, Viscosity,
 };
-use pulvis_core::{Domain, Setup};
+use pulvis_core::{Domain, NamedColumn, Setup, Simulation};
 use pulvis_math::Vector3;
 use pulvis_packing::{gaussian_vector, random_positions, random_stream};
 use pulvis_testkit::parameters::example;
@@ -44,7 +44,9 @@ fn models() -> Vec<(String, ContactModel)> {
         };
         entries
     });
-    roles.filter(|entry| entry.name != "none").map(|entry| (label(entry), model(entry))).collect()
+    // Charges act farther than a small box is wide; they have a bed of their own in `surroundings.rs`.
+    let fit = roles.filter(|entry| !["none", "coulomb"].contains(&entry.name));
+    fit.map(|entry| (label(entry), model(entry))).collect()
 }
 
 fn label(entry: &LawEntry) -> String {
@@ -88,10 +90,10 @@ fn named(name: &str) -> &'static LawEntry {
     Normal::ENTRIES.iter().find(|entry| entry.name == name).unwrap()
 }
 
-/// Grains at a solid fraction of 0.4 in a periodic cube, which move and turn.
+/// Grains at a solid fraction of 0.3 in a periodic cube, which move and turn.
 fn bed(grains: usize, model: ContactModel) -> Setup {
     let volume = grains as f64 * sphere(Vector3::zero(), Vector3::zero(), RADIUS).mass / 2500.0;
-    let edge = pulvis_math::elementary::powf(volume / 0.4, 1.0 / 3.0);
+    let edge = pulvis_math::elementary::powf(volume / 0.3, 1.0 / 3.0);
     let upper = vector(edge, edge, edge);
     let domain = Domain::periodic(Vector3::zero(), upper, [true; 3]);
     let mut random = random_stream(5);
@@ -112,9 +114,12 @@ fn explore() {
         let began = std::time::Instant::now();
         let mut errors = Vec::new();
         let mut scale = 0.0;
-        for times in [1, 2, 4] {
-            let mut simulation = start(bed(125, model), AUTOMATIC * times as f64);
-            errors.push(advance_watching(&mut simulation, 2000 * times, 50));
+        for times in [1_u16, 2, 4] {
+            let mut setup = bed(125, model);
+            setup.time_step = contact_time(&setup) / (AUTOMATIC * f64::from(times));
+            let shells = NamedColumn { name: "shell_thickness".to_owned(), unit: "m".to_owned(), values: vec![5e-6; 125] };
+            let mut simulation = Simulation::with_columns(setup, vec![shells]).unwrap();
+            errors.push(advance_watching(&mut simulation, 2000 * usize::from(times), 50));
             scale = simulation.ledger().dissipated() / simulation.ledger().scale;
         }
         println!(
