@@ -117,7 +117,11 @@ fn explore() {
         for times in [1_u16, 2, 4] {
             let mut setup = bed(125, model);
             setup.time_step = contact_time(&setup) / (AUTOMATIC * f64::from(times));
-            let shells = NamedColumn { name: "shell_thickness".to_owned(), unit: "m".to_owned(), values: vec![5e-6; 125] };
+            let shells = NamedColumn {
+                name: "shell_thickness".to_owned(),
+                unit: "m".to_owned(),
+                values: vec![5e-6; 125],
+            };
             let mut simulation = Simulation::with_columns(setup, vec![shells]).unwrap();
             errors.push(advance_watching(&mut simulation, 2000 * usize::from(times), 50));
             scale = simulation.ledger().dissipated() / simulation.ledger().scale;

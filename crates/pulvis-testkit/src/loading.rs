@@ -2,6 +2,7 @@
 
 use pulvis_contact::catalogue::Values;
 use pulvis_contact::{Memory, Normal, NormalLaw, NormalMotion, NormalResponse, Pair};
+use pulvis_math::Real;
 
 /// A normal law by its name, taken out of the catalogue.
 pub fn built<N: NormalLaw>(name: &str, values: &Values) -> N {
@@ -17,6 +18,17 @@ pub fn refused(name: &str, values: &Values) -> String {
 pub fn assert_printed(found: f64, printed: f64, digits: i32) {
     let allowed = 0.51 * pulvis_math::elementary::powi(10.0, 1 - digits);
     assert!((found / printed - 1.0).abs() < allowed, "{found}, printed {printed}");
+}
+
+/// The answer of a law, compiled once for each law. Laws are inlined wherever they are asked, which is right for loops;
+/// here it would be most of what there is to compile.
+#[inline(never)]
+pub(crate) fn ask<R: Real, N: NormalLaw>(
+    law: &N,
+    motion: &NormalMotion<R>,
+    memory: &mut N::Memory<R>,
+) -> NormalResponse<R> {
+    law.respond(motion, memory)
 }
 
 /// A contact and what it has lost.
@@ -40,7 +52,7 @@ impl<N: NormalLaw> Loading<N> {
 
     /// Goes to an overlap [m] in one step.
     pub fn go(&mut self, overlap: f64) -> NormalResponse {
-        let answer = self.law.respond(&NormalMotion::at_rest(&self.pair, overlap), &mut self.memory);
+        let answer = ask(&self.law, &NormalMotion::at_rest(&self.pair, overlap), &mut self.memory);
         self.lost += answer.dissipated_plastic + answer.dissipated_adhesive + answer.dissipated_thermal;
         answer
     }

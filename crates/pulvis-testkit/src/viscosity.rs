@@ -5,6 +5,7 @@ use pulvis_math::{F64Array, Real};
 
 use crate::draw::Draw;
 use crate::for_each_case;
+use crate::loading::ask;
 use crate::parameters::{loaded_to, random_law, random_pair};
 
 /// Checks every viscous law of the catalogue, beside random normal laws, in `count` random cases.
@@ -32,18 +33,18 @@ impl NormalLawVisitor for Suite<'_> {
         let lanes = Pair::<F64Array<8>>::from_fn(|lane| pairs[lane]);
         let scales = pairs.map(|pair| {
             let at_touch = NormalMotion::at_rest(&pair, 0.0);
-            normal.respond(&at_touch, &mut Default::default()).inverse_overlap_scale.recip()
+            ask(normal, &at_touch, &mut Default::default()).inverse_overlap_scale.recip()
         });
         let mut memories = [<N::Memory<f64>>::default(); 8];
         let mut memory = <N::Memory<F64Array<8>>>::default();
         for _ in 0..4 {
             let overlaps: [f64; 8] =
                 scales.map(|scale| if draw.chance(0.1) { 0.0 } else { scale * draw.unit() });
-            let all = normal.respond(&NormalMotion::at_rest(&lanes, F64Array(overlaps)), &mut memory);
+            let all = ask(normal, &NormalMotion::at_rest(&lanes, F64Array(overlaps)), &mut memory);
             let together = law.coefficient(&lanes, F64Array(overlaps), &all);
             for lane in 0..8 {
                 let (pair, overlap) = (&pairs[lane], overlaps[lane]);
-                let answer = normal.respond(&NormalMotion::at_rest(pair, overlap), &mut memories[lane]);
+                let answer = ask(normal, &NormalMotion::at_rest(pair, overlap), &mut memories[lane]);
                 let coefficient = law.coefficient(pair, overlap, &answer);
                 assert_eq!(together.lane(lane).to_bits(), coefficient.to_bits(), "{law:?}");
                 let max_stiffness = normal.max_stiffness(pair, &loaded_to(scales[lane], pair));

@@ -4,6 +4,7 @@ use pulvis_contact::{Memory, NormalLaw, NormalMotion};
 
 use super::{Bench, bits, columns};
 use crate::draw::Draw;
+use crate::loading::ask;
 
 pub(super) fn out_of_range_a_contact_is_forceless_and_forgets<N: NormalLaw>(
     bench: &Bench<N>,
@@ -79,7 +80,7 @@ pub(super) fn an_answer_agrees_with_itself<N: NormalLaw>(bench: &Bench<N>, draw:
             time_step: 1e-6,
             ..NormalMotion::at_rest(&bench.pair, next)
         };
-        let answer = law.respond(&motion, &mut memory);
+        let answer = ask(&law, &motion, &mut memory);
         let state = format!("{law:?}: {answer:?} at {next} m");
         if sure && answer.in_contact {
             assert_eq!(answer.was_in_contact, acted, "{state}, from {overlap} m");

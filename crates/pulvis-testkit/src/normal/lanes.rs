@@ -5,6 +5,7 @@ use pulvis_math::{F64Array, Real};
 
 use super::{bits, columns};
 use crate::draw::Draw;
+use crate::loading::ask;
 use crate::parameters::{random_pair, with_random_quantities};
 
 type Eight = F64Array<8>;
@@ -40,7 +41,7 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number<N: NormalLaw>(law: N, draw
             time_step: 1e-6,
             ..NormalMotion::at_rest(&lanes, F64Array(overlaps))
         };
-        let answer = law.respond(&motion, &mut memory);
+        let answer = ask(&law, &motion, &mut memory);
         for lane in 0..8 {
             let motion = NormalMotion {
                 closing_rate,
@@ -48,7 +49,7 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number<N: NormalLaw>(law: N, draw
                 time_step: 1e-6,
                 ..NormalMotion::at_rest(&pairs[lane], overlaps[lane])
             };
-            let plain = law.respond(&motion, &mut memories[lane]);
+            let plain = ask(&law, &motion, &mut memories[lane]);
             let mut of_lane = vec![0.0; <N::Memory<f64> as Memory<f64>>::COLUMNS];
             memory.store(|index, value: Eight| of_lane[index] = value.lane(lane));
             let memory_bits = |numbers: Vec<f64>| numbers.into_iter().map(f64::to_bits).collect::<Vec<_>>();

@@ -7,6 +7,7 @@ use pulvis_math::{Mask, Real};
 
 use crate::draw::Draw;
 use crate::for_each_case;
+use crate::loading::ask;
 use crate::parameters::{loaded_to, random_law, random_pair, with_random_quantities};
 
 mod collision;
@@ -68,7 +69,7 @@ impl<N: NormalLaw> Bench<N> {
         let pair = with_random_quantities(random_pair(draw), &N::ENTRY, None, draw);
         let mut virgin = <N::Memory<f64>>::default();
         let touch = NormalMotion::at_rest(&pair, 1e-9 * pair.harmonic_radius());
-        let touches = law.respond(&touch, &mut virgin);
+        let touches = ask(&law, &touch, &mut virgin);
         let scale = touches.inverse_overlap_scale.recip();
         assert!(scale > 0.0 && scale.is_finite(), "{law:?}: the overlap scale is {scale}");
         let range = law.interaction_range(&pair);
@@ -93,7 +94,7 @@ impl<N: NormalLaw> Bench<N> {
     }
 
     fn respond(&self, overlap: f64, memory: &mut N::Memory<f64>) -> NormalResponse {
-        self.law.respond(&NormalMotion::at_rest(&self.pair, overlap), memory)
+        ask(&self.law, &NormalMotion::at_rest(&self.pair, overlap), memory)
     }
 
     /// An overlap at which the law may act [m].
