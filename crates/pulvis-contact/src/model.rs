@@ -159,15 +159,19 @@ impl ContactModel {
     ) -> ContactResponse<R> {
         let slots = *self.memory_layout().slots();
         let inputs = ContactInputs { pair, motion, time_step, temperature };
-        let Some(bond) = &self.laws.bond else {
-            return self.laws.respond::<R, _, _, { levels::ALL }>(&self.normal, &slots, inputs, columns);
-        };
-        let bonded = bond.respond(inputs, slots.bond, columns);
-        let beside = bonded.beside(motion);
-        let inputs = ContactInputs { motion: &beside, ..inputs };
+        let (mut seen, mut bonded) = (*motion, None);
+        if let Some(bond) = &self.laws.bond {
+            let answer = bond.respond(inputs, slots.bond, columns);
+            seen = answer.beside(motion);
+            bonded = Some(answer);
+        }
+        // One call for both cases: all laws are inlined into it.
+        let inputs = ContactInputs { motion: &seen, ..inputs };
         let mut response =
             self.laws.respond::<R, _, _, { levels::ALL }>(&self.normal, &slots, inputs, columns);
-        bonded.add_to(&mut response);
+        if let Some(bonded) = bonded {
+            bonded.add_to(&mut response);
+        }
         response
     }
 

@@ -32,9 +32,13 @@ pub(super) fn paths(role: Role) -> Vec<[Vec<f64>; 2]> {
             })
             .collect(),
         // Attractions set in and end at distances of all scales.
-        _ => decades(-9, -4)
-            .flat_map(|depth| [0.1, 1.0, 10.0].map(|times| along(depth, times * depth)))
-            .collect(),
+        _ => {
+            let ranges: &[f64] =
+                if role == Role::NonContact { &[0.1, 1.0, 10.0, 100.0, 1000.0] } else { &[0.1, 1.0, 10.0] };
+            decades(-9, -4)
+                .flat_map(|depth| ranges.iter().map(move |times| along(depth, times * depth)))
+                .collect()
+        }
     }
 }
 

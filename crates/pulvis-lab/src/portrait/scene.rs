@@ -41,7 +41,10 @@ fn contacts(entry: &LawEntry) -> Vec<String> {
         return vec![table(Role::Normal, entry.example)];
     }
     let hosts = if entry.role == Role::Viscosity { HOSTS_OF_DASHPOTS } else { HOSTS };
-    hosts.iter().map(|host| table(Role::Normal, host) + &table(entry.role, entry.example)).collect()
+    let beside = table(entry.role, entry.example);
+    // On a path no stage starts.
+    let beside = if entry.role == Role::Bond { beside + "form = \"first-touch\"\n" } else { beside };
+    hosts.iter().map(|host| table(Role::Normal, host) + &beside).collect()
 }
 
 /// Collisions that show the example of a dashpot, at speeds of all scales.
@@ -61,9 +64,9 @@ fn bodies(entry: &LawEntry) -> String {
         let Parameter { name, kind, .. } = quantity;
         let (size, signed) = match kind {
             Kind::Number { dimension: Dimension::LENGTH, range, .. } => {
-                (0.1 * path::RADIUS, *range == Range::Any)
+                (0.01 * path::RADIUS, *range == Range::Any)
             }
-            Kind::Number { range, .. } => (1.0e-12, *range == Range::Any),
+            Kind::Number { range, .. } => (1.0e-10, *range == Range::Any),
             Kind::Choice(_) => (0.0, false),
         };
         // Of opposite signs, for attraction.
