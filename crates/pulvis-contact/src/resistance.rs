@@ -57,12 +57,14 @@ impl<'a, R: Real> Resistance<'a, R> {
         let dt = R::splat(time_step);
         let opening = motion.velocity_mid.dot(motion.normal);
         let sideways = motion.velocity_mid - motion.normal * opening;
-        // A contact that began within the step has moved for a part of the step only. Few do.
+        // A contact that began within the step has moved for a part of the step only. Few do. Some laws attach bodies anew
+        // that overlap by more than they approached: these have moved for the step at the most.
         let approach = opening * R::splat(-time_step);
         let began = in_contact & !normal.was_in_contact;
         let mut elapsed = dt;
         if began.any() {
-            elapsed = R::select(began & approach.gt(R::zero()), dt * (overlap / approach), dt);
+            let part = (overlap / approach).min(R::one());
+            elapsed = R::select(began & approach.gt(R::zero()), dt * part, dt);
         }
         let elapsed = elapsed.keep_where(in_contact);
         let half = R::splat(0.5) * elapsed;

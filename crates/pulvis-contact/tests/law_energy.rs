@@ -44,7 +44,11 @@ fn closes_at_its_order(model: &ContactModel, dance: &Dance) {
             .any(|law| law.dashpot() != 0.0 && !matches!(law, Friction::SpringSlider(_)));
     // Bodies that detach and attach anew while they overlap: in the step of the event the books are half-way. And an
     // attraction over less than a step.
-    let snaps = matches!(model.normal, Normal::Pasha(_) | Normal::ThorntonNing(_) | Normal::Tomas(_));
+    // Or whose own dashpot sets in with a jump, where they snap into contact.
+    let snaps = matches!(
+        model.normal,
+        Normal::Pasha(_) | Normal::ThorntonNing(_) | Normal::Tomas(_) | Normal::ViscoelasticJkr(_)
+    );
     if snaps || in_series && laws.has_resistance_dashpot() {
         // The books of a dashpot in series with a slider run ahead by half a step of what it loses by slip: first order,
         // with the same margin of 4.

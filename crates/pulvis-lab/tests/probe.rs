@@ -249,8 +249,13 @@ fn contacts_that_do_not_depend_on_time_do_not() {
     for entry in Normal::ENTRIES {
         let run = |speed: &str| {
             let keys = format!("{LOOP}\nspeed = \"{speed}\"");
-            let text =
-                format!("[probe]\ndensity = \"2000 kg/m^3\"\n{keys}\n[contact.normal]\n{}\n", entry.example);
+            let quantities = entry.particle_quantities.iter();
+            let quantities = quantities.map(|of| format!("{} = \"1e-6 {}\"\n", of.name, of.unit()));
+            let text = format!(
+                "temperature = \"300 K\"\n[probe]\ndensity = \"2000 kg/m^3\"\n{keys}\n{}[contact.normal]\n{}\n",
+                quantities.collect::<String>(),
+                entry.example
+            );
             let document = Document::from_str(entry.name, &text).unwrap();
             let scenario =
                 ProbeScenario::from_document(&document).unwrap_or_else(|errors| panic!("{errors}"));

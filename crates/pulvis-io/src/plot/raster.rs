@@ -67,19 +67,6 @@ pub(crate) fn average(large: &[u8], wide: usize, times: usize) -> Vec<u8> {
     small
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn averaging_keeps_what_is_even_and_halves_what_is_half() {
-        // Two rows of four pixels: left half black and white in turn, right half grey.
-        let row = [[0; 3], [255; 3], [9; 3], [9; 3]];
-        let large: Vec<u8> = [row, row].as_flattened().as_flattened().to_vec();
-        assert_eq!(average(&large, 4, 2), [128, 128, 128, 9, 9, 9]);
-    }
-}
-
 /// A picture as it stands in a file, for tests.
 #[cfg(test)]
 pub(crate) struct Decoded {
@@ -105,5 +92,18 @@ impl Decoded {
 
     pub(crate) fn pixel(&self, x: u32, y: u32) -> [u8; 3] {
         self.pixels[(y * self.width + x) as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn averaging_keeps_what_is_even_and_halves_what_is_half() {
+        // Two rows of four pixels: left half black and white in turn, right half grey.
+        let row = [[0; 3], [255; 3], [9; 3], [9; 3]];
+        let large: Vec<u8> = [row, row].as_flattened().as_flattened().to_vec();
+        assert_eq!(average(&large, 4, 2), [128, 128, 128, 9, 9, 9]);
     }
 }
