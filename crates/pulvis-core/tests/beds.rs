@@ -2,7 +2,7 @@
 //!
 //! A small bed runs with the tests. `cargo test --release -p pulvis-core --test beds -- --ignored` runs 1000 grains
 //! over 10 000 steps for every law.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 mod common;
 
