@@ -4,6 +4,9 @@ use std::fmt::Display;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+/// Exit code of a command that the user stopped, as shells expect it (128 + SIGINT).
+pub const INTERRUPTED: u8 = 130;
+
 /// A failed command.
 #[derive(Debug)]
 pub struct Failure {

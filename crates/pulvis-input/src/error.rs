@@ -155,6 +155,18 @@ impl InputErrors {
         Self { errors, omitted }
     }
 
+    /// As they come, of more than one file: those of the first file first.
+    pub(crate) fn in_order(mut errors: Vec<InputError>) -> Self {
+        let omitted = errors.len().saturating_sub(Self::MOST);
+        errors.truncate(Self::MOST);
+        Self { errors, omitted }
+    }
+
+    /// The mistakes alone.
+    pub(crate) fn into_errors(self) -> Vec<InputError> {
+        self.errors
+    }
+
     /// The same mistakes, with advice where they have none yet.
     pub(crate) fn with_help(mut self, help: &str) -> Self {
         for error in &mut self.errors {

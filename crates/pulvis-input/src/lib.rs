@@ -9,7 +9,7 @@
 //! - [`error`], [`problem`]: where it is wrong, what was found, what was expected, what to do;
 //! - [`mod@contact`], [`comparison`]: all laws of a contact, and contacts to be compared;
 //! - [`scenario`], [`collision`], [`probe`]: the scenario of a run, of a pair collision, and of a contact on a
-//!   prescribed path, each checked as a whole.
+//!   prescribed path, each checked as a whole; [`figure`]: a figure that is reproduced from such scenarios.
 //!
 //! # Example
 //! ```
@@ -34,6 +34,7 @@ pub mod context;
 mod decimal;
 pub mod document;
 pub mod error;
+pub mod figure;
 pub mod list;
 mod load;
 pub mod material;

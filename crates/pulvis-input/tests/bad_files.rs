@@ -3,11 +3,13 @@
 //! A line `#^ 3:10: contact.normal.kp: ...` is the first line of one message without `error: <file>:`;
 //! several mistakes are several such lines, in the order of the file, missing keys after the unknown ones of
 //! their table. Changing a message shows up in review. Files `collision_*` are scenarios of pair
-//! collisions, files `probe_*` of probes, all others of runs.
+//! collisions, files `probe_*` of probes, all others of runs. Each folder of `tests/bad_figures` is a figure whose
+//! `figure.toml` ends in the same way.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pulvis_input::collision::CollisionScenario;
+use pulvis_input::figure::FigureScenario;
 use pulvis_input::probe::ProbeScenario;
 use pulvis_input::{InputErrors, Problem, Scenario};
 use std::fs;
@@ -57,6 +59,30 @@ fn every_bad_file_is_refused_with_exactly_its_messages() {
             let expected = expected.join("\n  ");
             let got = got.join("\n  ");
             wrong.push_str(&format!("\n{}\n expected\n  {expected}\n got\n  {got}\n", path.display()));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn every_bad_figure_is_refused_with_exactly_its_messages() {
+    let mut wrong = String::new();
+    let all = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_figures");
+    let mut folders: Vec<PathBuf> = fs::read_dir(&all).unwrap().map(|entry| entry.unwrap().path()).collect();
+    folders.retain(|folder| folder.is_dir());
+    folders.sort();
+    assert!(folders.len() >= 6, "the folder of bad figures was not found");
+    for folder in folders {
+        let text = fs::read_to_string(folder.join("figure.toml")).unwrap();
+        let expected: Vec<&str> =
+            text.lines().filter_map(|line| line.strip_prefix("#^")).map(str::trim).collect();
+        let got: Vec<String> = match FigureScenario::load(&folder) {
+            Ok(_) => vec!["accepted".to_owned()],
+            Err(errors) => errors.errors().iter().map(|error| error.headline()).collect(),
+        };
+        if expected != got {
+            let (expected, got) = (expected.join("\n  "), got.join("\n  "));
+            wrong.push_str(&format!("\n{}\n expected\n  {expected}\n got\n  {got}\n", folder.display()));
         }
     }
     assert!(wrong.is_empty(), "{wrong}");

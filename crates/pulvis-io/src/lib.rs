@@ -8,6 +8,7 @@
 //! | [`vtk`] | particles and contacts, one frame per instant, and the index of a run | ParaView, VTK, pyvista, OVITO |
 //! | [`table`] | tables as aligned text, CSV or JSON; time series while a run goes on | people, spreadsheets, scripts |
 //! | [`plot`] | charts of curves as PNG or SVG | people |
+//! | [`report`] | sections of pictures and tables as one HTML page, and as Markdown | people |
 //! | [`picture`] | packings of spheres as PNG | people |
 //!
 //! # Promises shared by all writers
@@ -38,6 +39,7 @@ mod file;
 mod font;
 pub mod picture;
 pub mod plot;
+pub mod report;
 pub mod table;
 pub mod vtk;
 

@@ -8,7 +8,7 @@ use pulvis_input::InputErrors;
 use pulvis_input::collision::CollisionScenario;
 use pulvis_lab::collision::{SweepPoint, figure, result_table, sweep, trajectory_table};
 
-use super::picture_file::{check, exists};
+use super::picture_file::{Resolution, check, exists};
 use super::set::Settings;
 use crate::failure::{Failure, print};
 
@@ -29,6 +29,8 @@ pub struct Arguments {
     /// Draw restitution, force loops and energies
     #[arg(long, value_name = "FILE.png|svg")]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    resolution: Resolution,
     #[command(flatten)]
     set: Settings,
     /// Write over trajectories and pictures that exist
@@ -54,7 +56,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     if let Some(file) = &arguments.plot {
         let picture = figure(&scenario, &points).map_err(Failure::while_running)?;
-        picture.write(file).map_err(Failure::while_running)?;
+        picture.dpi(arguments.resolution.dpi).write(file).map_err(Failure::while_running)?;
     }
     print(&results(&scenario, &points, &arguments.format)?)?;
     Ok(ExitCode::SUCCESS)

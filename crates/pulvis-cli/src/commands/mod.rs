@@ -3,9 +3,11 @@
 mod check;
 mod collide;
 mod laws;
+mod machine;
 mod picture_file;
 mod probe;
 mod progress;
+mod reproduce;
 mod run;
 mod set;
 mod verify;
@@ -30,6 +32,8 @@ pub enum Command {
     Probe(probe::Arguments),
     /// Lists the contact laws, or describes one in full
     Laws(laws::Arguments),
+    /// Computes figures of papers anew, holds them against theory, and writes a report
+    Reproduce(reproduce::Arguments),
     /// Checks contact laws against closed forms, published numbers and values of another program
     Verify(verify::Arguments),
 }
@@ -43,6 +47,7 @@ impl Command {
             Self::Collide(arguments) => collide::execute(arguments),
             Self::Probe(arguments) => probe::execute(arguments),
             Self::Laws(arguments) => laws::execute(arguments),
+            Self::Reproduce(arguments) => reproduce::execute(arguments),
             Self::Verify(arguments) => verify::execute(arguments),
         }
     }

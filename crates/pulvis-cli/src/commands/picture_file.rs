@@ -2,6 +2,10 @@
 
 use std::path::Path;
 
+use clap::Args;
+use clap::builder::RangedU64ValueParser;
+use pulvis_io::plot::Figure;
+
 use crate::failure::Failure;
 
 /// Refuses a file that exists, or whose ending no format has: before anything is computed, since nobody likes to hear
@@ -20,6 +24,19 @@ pub fn check(file: &Path, force: bool) -> Result<(), Failure> {
         return Err(exists(file));
     }
     Ok(())
+}
+
+/// The resolution of pictures in pixels.
+#[derive(Debug, Args)]
+pub struct Resolution {
+    /// Pixels to the inch of a PNG
+    #[arg(long, value_name = "N", default_value_t = 144, value_parser = resolution())]
+    pub dpi: u32,
+}
+
+fn resolution() -> RangedU64ValueParser<u32> {
+    let [least, most] = Figure::RESOLUTIONS.map(u64::from);
+    RangedU64ValueParser::new().range(least..=most)
 }
 
 /// A file stands where output shall go.

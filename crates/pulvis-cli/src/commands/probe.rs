@@ -27,6 +27,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.png|svg")]
     plot: Option<PathBuf>,
     #[command(flatten)]
+    resolution: picture_file::Resolution,
+    #[command(flatten)]
     set: Settings,
     /// Write over a picture that exists
     #[arg(long)]
@@ -49,7 +51,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             [scenario] => scenario.title.as_deref(),
             _ => None,
         };
-        figure(title, &curves).write(file).map_err(Failure::while_running)?;
+        figure(title, &curves).dpi(arguments.resolution.dpi).write(file).map_err(Failure::while_running)?;
     }
     print(&results(&curves, &arguments.format)?)?;
     Ok(ExitCode::SUCCESS)

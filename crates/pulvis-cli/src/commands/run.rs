@@ -14,10 +14,7 @@ use pulvis_lab::protocol::{RunOptions, RunSummary, run};
 use super::progress::ProgressLine;
 use super::set::Settings;
 use super::words::duration;
-use crate::failure::{Failure, print};
-
-/// Exit code of a run that the user stopped, as shells expect it (128 + SIGINT).
-const INTERRUPTED: u8 = 130;
+use crate::failure::{Failure, INTERRUPTED, print};
 
 /// Runs the stages of a scenario and writes tables, VTK files and pictures into a fresh folder.
 #[derive(Debug, Args)]

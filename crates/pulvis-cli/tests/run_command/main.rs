@@ -1,8 +1,9 @@
-//! `pulvis run` and `pulvis check` from outside: files, messages, exit codes, Ctrl-C.
+//! `pulvis run`, `pulvis check` and `pulvis reproduce` from outside: files, messages, exit codes, Ctrl-C.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
 
 mod check;
 mod folder;
 mod place;
+mod reproduce;
 mod run;

@@ -27,6 +27,7 @@
 mod bodies;
 mod closed_form;
 mod draft;
+mod family;
 mod incidence;
 mod speed;
 mod sweep;
@@ -34,6 +35,7 @@ mod sweep;
 pub use bodies::{Bodies, Sphere};
 pub(crate) use bodies::{read_bodies, unfit_for_numbers};
 pub use closed_form::luding_pair;
+pub use family::SweepFamily;
 pub use incidence::Incidence;
 pub use sweep::SweptVariable;
 
@@ -48,6 +50,7 @@ use crate::reader::TableReader;
 use crate::shape::{Name, Text};
 use crate::surroundings::{Surroundings, read_surroundings, read_temperature};
 use draft::Draft;
+use family::read_family;
 use incidence::read_incidence;
 use pulvis_contact::ContactModel;
 use pulvis_contact::bond::Form;
@@ -111,8 +114,10 @@ pub struct CollisionScenario {
     pub cases: Vec<CollisionCase>,
     /// What the contacts are called that are compared.
     pub labels: Vec<String>,
-    /// The file, where a parameter in it is swept.
-    document: Option<Document>,
+    /// The second variable, which differs between the contacts.
+    pub family: Option<SweepFamily>,
+    /// The file, where a parameter in it is swept; with a second variable, once for each of its values.
+    documents: Vec<Document>,
 }
 
 impl CollisionScenario {
@@ -129,26 +134,46 @@ impl CollisionScenario {
     /// # Errors
     /// All mistakes; of a swept parameter, those of the first value that is refused.
     pub fn from_document(document: &Document) -> Result<Self, InputErrors> {
+        let mut scenario = Self::of_one_variable(document)?;
+        let Some(family) = scenario.family.clone() else { return Ok(scenario) };
+        scenario.cases.clear();
+        scenario.labels.clear();
+        scenario.documents.clear();
+        for (number, value) in family.values.iter().enumerate() {
+            let replaced = document.with_override(&family.path, Replacement::Si(*value))?;
+            let one = Self::of_one_variable(&replaced)?;
+            scenario
+                .cases
+                .extend(one.cases.into_iter().map(|case| CollisionCase { contact_number: number, ..case }));
+            scenario.labels.push(family.label(*value));
+            scenario.documents.push(replaced);
+        }
+        Ok(scenario)
+    }
+
+    /// Reads a scenario without its second variable.
+    fn of_one_variable(document: &Document) -> Result<Self, InputErrors> {
         let mut scenario = document.read(|root| walk(root, true))?;
         if let SweptVariable::Key { path, .. } = &scenario.variable {
             let base = std::mem::take(&mut scenario.cases);
             for case in &base {
                 scenario.cases.extend(case_at(document, path, case.value, case.contact_number)?);
             }
-            scenario.document = Some(document.clone());
         }
+        scenario.documents.push(document.clone());
         Ok(scenario)
     }
 
-    /// The collision of the first contact at any value of a swept parameter, in SI; `None` where no parameter of the file is swept, or where
-    /// the file with this value would be refused.
-    pub fn case_at(&self, value: f64) -> Option<CollisionCase> {
-        match (&self.variable, &self.document) {
-            (SweptVariable::Key { path, .. }, Some(document)) => {
-                case_at(document, path, value, 0).ok().flatten()
-            }
-            _ => None,
-        }
+    /// The collision of a contact at any value of a swept parameter, in SI; `None` where no parameter of the file is swept,
+    /// or where the file with this value would be refused.
+    pub fn case_at(&self, value: f64, contact_number: usize) -> Option<CollisionCase> {
+        let SweptVariable::Key { path, .. } = &self.variable else { return None };
+        let (document, in_file) = match self.family {
+            Some(_) => (self.documents.get(contact_number)?, 0),
+            None => (self.documents.first()?, contact_number),
+        };
+        let case = case_at(document, path, value, in_file).ok().flatten()?;
+        Some(CollisionCase { contact_number, ..case })
     }
 }
 
@@ -195,6 +220,11 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
         (Ok(_), _) => Ok(Sweep::single()),
         (Err(reported), _) => Err(reported),
     };
+    let family = match (table.optional_table("family"), &contacts) {
+        (Ok(Some(family)), Ok(contacts)) => read_family(family, contacts).map(Some),
+        (Ok(_), _) => Ok(None),
+        (Err(reported), _) => Err(reported),
+    };
     let method = match (method, &contacts) {
         (Ok(Method::Exact), Ok(contacts))
             if contacts.iter().any(|contact| contact.contact.model.normal.depends_on_time()) =>
@@ -205,6 +235,12 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
     };
     let (bodies, incidence, method, speed) = (bodies?, incidence?, method?, speed?);
     let (sweep, contacts, surroundings) = (sweep?, contacts?, surroundings?);
+    if let Ok(Some(family)) = &family
+        && family.path == sweep.variable.name()
+    {
+        let found = format!("`{}` is the first variable too", family.path);
+        return Err(table.refuse("family", Problem::rule(found, "another one")));
+    }
     let mut cases = Ok(Vec::new());
     let mut time_after_sticking = time_after_sticking;
     for (contact_number, LabelledContact { contact, .. }) in contacts.iter().enumerate() {
@@ -224,7 +260,8 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
         time_after_sticking: time_after_sticking?,
         cases: cases?,
         labels: contacts.into_iter().map(|contact| contact.label).collect(),
-        document: None,
+        family: family?,
+        documents: Vec::new(),
     })
 }
 

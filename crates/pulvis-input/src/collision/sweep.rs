@@ -18,7 +18,7 @@ use pulvis_math::{Dimension, elementary};
 const MOST_POINTS: i64 = 1_000_000;
 
 /// The key of the engine's resolution, which can be swept beside law parameters.
-const STEPS: &str = "collision.steps_per_contact";
+pub(super) const STEPS: &str = "collision.steps_per_contact";
 
 /// The variable of a sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,26 +105,7 @@ pub(super) fn read_sweep(
         let found = format!("`{name}` belongs to one of the contacts that are compared");
         return Err(table.refuse("variable", Problem::rule(found, "a speed, or a key of `collision`")));
     }
-    let listed = table.optional("values", List::of(sweepable.rule).at_least(1))?;
-    let mut logarithmic = false;
-    let values = match listed {
-        Some(values) => {
-            if let Some(key) =
-                ["from", "to", "points", "spacing"].into_iter().find(|key| table.value(key).is_some())
-            {
-                return Err(table.refuse(
-                    key,
-                    Problem::rule("given beside `values`", "either `values` or `from`, `to`, `points`"),
-                ));
-            }
-            values
-        }
-        None if !["from", "to", "points", "spacing"].into_iter().any(|key| table.keys().contains(&key)) => {
-            let expected = "a list of values, or `from`, `to` and `points`".to_owned();
-            return Err(table.refuse("values", Problem::MissingKey { key: "values".to_owned(), expected }));
-        }
-        None => read_range(&mut table, sweepable.rule, &mut logarithmic)?,
-    };
+    let (values, logarithmic) = read_values(&mut table, sweepable.rule)?;
     let mut points = Vec::new();
     for (index, value) in values.into_iter().enumerate() {
         let location =
@@ -142,6 +123,34 @@ pub(super) fn read_sweep(
     }
     table.finish();
     Ok(Sweep { variable: sweepable.variable, logarithmic, points })
+}
+
+/// Reads a list of `values`, or `from`, `to`, `points` and `spacing`; and whether they are spaced by equal ratios.
+pub(super) fn read_values(
+    table: &mut TableReader<'_>,
+    rule: QuantityRule,
+) -> Result<(Vec<f64>, bool), Reported> {
+    let listed = table.optional("values", List::of(rule).at_least(1))?;
+    let mut logarithmic = false;
+    let values = match listed {
+        Some(values) => {
+            if let Some(key) =
+                ["from", "to", "points", "spacing"].into_iter().find(|key| table.value(key).is_some())
+            {
+                return Err(table.refuse(
+                    key,
+                    Problem::rule("given beside `values`", "either `values` or `from`, `to`, `points`"),
+                ));
+            }
+            values
+        }
+        None if !["from", "to", "points", "spacing"].into_iter().any(|key| table.keys().contains(&key)) => {
+            let expected = "a list of values, or `from`, `to` and `points`".to_owned();
+            return Err(table.refuse("values", Problem::MissingKey { key: "values".to_owned(), expected }));
+        }
+        None => read_range(table, rule, &mut logarithmic)?,
+    };
+    Ok((values, logarithmic))
 }
 
 /// Reads `from`, `to`, `points` and `spacing`.
@@ -205,28 +214,31 @@ fn find(table: &TableReader<'_>, name: &str, contact: &NamedContact) -> Result<S
             parameter: None,
         });
     }
-    let parameter = name.strip_prefix("contact.").and_then(|rest| {
-        let (role, parameter) = rest.split_once('.')?;
-        laws(contact).into_iter().find(|entry| entry.role.key() == role)?.parameter(parameter)
-    });
-    match parameter {
-        Some(parameter) => match parameter.kind {
-            Kind::Number { dimension, may_be_infinite, .. } => {
-                let rule = QuantityRule::of(dimension).or_bare();
-                let rule = if may_be_infinite { rule.or_infinite() } else { rule };
-                Ok(Sweepable {
-                    variable: key(dimension.unit()),
-                    measure: None,
-                    rule,
-                    parameter: Some(parameter),
-                })
-            }
-            Kind::Choice(_) => {
-                Err(table.refuse("variable", Problem::rule(format!("`{name}` is a choice"), "a number")))
-            }
-        },
+    if let Some((parameter, dimension, rule)) = swept_parameter(name, contact) {
+        let variable = key(dimension.unit());
+        return Ok(Sweepable { variable, measure: None, rule, parameter: Some(parameter) });
+    }
+    match parameter_at(name, contact) {
+        Some(_) => Err(table.refuse("variable", Problem::rule(format!("`{name}` is a choice"), "a number"))),
         None => Err(unknown(table, name, contact)),
     }
+}
+
+/// The parameter of a law at `contact.<role>.<parameter>`.
+fn parameter_at(path: &str, contact: &NamedContact) -> Option<&'static Parameter> {
+    let (role, parameter) = path.strip_prefix("contact.")?.split_once('.')?;
+    laws(contact).into_iter().find(|entry| entry.role.key() == role)?.parameter(parameter)
+}
+
+/// A number of a law, its dimension, and how its values are written.
+pub(super) fn swept_parameter(
+    path: &str,
+    contact: &NamedContact,
+) -> Option<(&'static Parameter, Dimension, QuantityRule)> {
+    let parameter = parameter_at(path, contact)?;
+    let Kind::Number { dimension, may_be_infinite, .. } = parameter.kind else { return None };
+    let rule = QuantityRule::of(dimension).or_bare();
+    Some((parameter, dimension, if may_be_infinite { rule.or_infinite() } else { rule }))
 }
 
 /// Reports a variable that does not exist.

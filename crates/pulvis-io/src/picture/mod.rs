@@ -189,7 +189,7 @@ pub fn render_spheres(path: &Path, scene: &SphereScene<'_>) -> Result<(), IoErro
     depth.draw_boxes(scene, &camera);
     let mut pixels = shade::shade(&depth, scene, &selection, &camera, range);
     furniture::draw(&mut pixels, scene, &selection, &camera, range)?;
-    file::replace(path, |out| raster::encode(out, &pixels, scene.width, scene.height))
+    file::replace(path, |out| raster::encode(out, &pixels, [scene.width, scene.height], raster::DPI))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Drawing in points, whatever the picture is made of.
 
 use super::geometry::Point;
+use super::script::{self, Run};
 use super::text;
 use crate::{Colour, IoError, font};
 use plotters::coord::Shift;
@@ -24,6 +25,28 @@ pub(crate) enum Across {
     Top,
     Middle,
     Bottom,
+}
+
+impl Along {
+    /// Start of a text from the given place, over its width.
+    fn share(self) -> f64 {
+        match self {
+            Self::Start => 0.0,
+            Self::Middle => -0.5,
+            Self::End => -1.0,
+        }
+    }
+}
+
+impl Across {
+    /// The baseline below the given place \[em\].
+    fn below(self) -> f64 {
+        match self {
+            Self::Top => text::BELOW_TOP,
+            Self::Middle => text::BELOW_MIDDLE,
+            Self::Bottom => -text::ABOVE_BOTTOM,
+        }
+    }
 }
 
 /// How a text is set.
@@ -101,6 +124,26 @@ impl<DB: DrawingBackend> Canvas<DB> {
         if text.trim().is_empty() {
             return Ok(());
         }
+        let runs = script::runs(text);
+        if let [Run { size: 1.0, .. }] = runs[..] {
+            return self.run(at, text, setting);
+        }
+        let (em, share) = (setting.size * text::EM, setting.along.share());
+        let mut right = share * text_width(text, setting.size);
+        for Run { text, size, below } in runs {
+            // Each piece has its own place of the kind that `across` asks for; the baselines have to fit.
+            let down = em * (setting.across.below() * (1.0 - size) + below);
+            let place =
+                if setting.upwards { (at.0 + down, at.1 - right) } else { (at.0 + right, at.1 + down) };
+            let size = setting.size * size;
+            self.run(place, text, Setting { size, along: Along::Start, ..setting })?;
+            right += text_width(text, size);
+        }
+        Ok(())
+    }
+
+    /// A text in one size.
+    fn run(&self, at: Point, text: &str, setting: Setting) -> Result<(), IoError> {
         match self.stroke {
             Stroke::Native => self.written(at, text, setting),
             Stroke::Filled => self.rasterised(at, text, setting),
@@ -129,16 +172,7 @@ impl<DB: DrawingBackend> Canvas<DB> {
     /// A text pixel by pixel.
     fn rasterised(&self, at: Point, text: &str, setting: Setting) -> Result<(), IoError> {
         let em = setting.size * text::EM * self.scale;
-        let along = match setting.along {
-            Along::Start => 0.0,
-            Along::Middle => -0.5,
-            Along::End => -1.0,
-        };
-        let across = match setting.across {
-            Across::Top => text::BELOW_TOP,
-            Across::Middle => text::BELOW_MIDDLE,
-            Across::Bottom => -text::ABOVE_BOTTOM,
-        };
+        let (along, across) = (setting.along.share(), setting.across.below());
         let (x, y) = self.pixel(at);
         let colour = opaque(setting.colour);
         let mut drawn = Ok(());
@@ -163,7 +197,7 @@ impl<DB: DrawingBackend> Canvas<DB> {
 
 /// Width of a text \[pt\] in a font of the given height \[pt\].
 pub(crate) fn text_width(text: &str, size: f64) -> f64 {
-    text::width(text, size * text::EM)
+    script::runs(text).iter().map(|run| text::width(run.text, size * run.size * text::EM)).sum()
 }
 
 fn opaque(colour: Colour) -> RGBAColor {

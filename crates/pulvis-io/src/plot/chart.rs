@@ -13,6 +13,17 @@ pub enum SeriesStyle {
     Dashed,
     /// Unconnected symbols.
     Points,
+    /// Unconnected open symbols, which show what lies below them.
+    Rings,
+    /// Unconnected crosses, small enough to lie inside a ring.
+    Crosses,
+}
+
+impl SeriesStyle {
+    /// Whether points are symbols, and no line joins them.
+    pub(super) fn is_unconnected(self) -> bool {
+        matches!(self, Self::Points | Self::Rings | Self::Crosses)
+    }
 }
 
 /// One curve or cloud of points.

@@ -27,7 +27,7 @@ pub(super) fn strokes(panel: &Panel<'_>) -> Vec<Vec<Stroke>> {
     let mut drawn: Vec<HashSet<(i64, i64)>> = Vec::new();
     let mut all = Vec::new();
     for (number, series) in panel.chart.series.iter().enumerate() {
-        let pieces = if series.style == SeriesStyle::Points { Vec::new() } else { panel.pieces(number) };
+        let pieces = if series.style.is_unconnected() { Vec::new() } else { panel.pieces(number) };
         let strokes: Vec<Stroke> = if series.style == SeriesStyle::Dashed {
             pieces.iter().map(|piece| (piece.clone(), Some(DASH))).collect()
         } else {

@@ -19,6 +19,10 @@ pub(super) const TITLE_FONT: f64 = 14.0;
 pub(super) const CURVE: f64 = 1.7;
 pub(super) const FRAME: f64 = 0.9;
 
+/// Half the width of a cross, and the width of its lines \[pt\].
+const CROSS: f64 = 2.4;
+const THIN: f64 = 1.0;
+
 /// Radius of a point of a curve that has gaps on both sides \[pt\].
 const LONE: f64 = 2.0;
 
@@ -43,6 +47,8 @@ pub(super) struct Panel<'a> {
     pub(super) chart: &'a Chart,
     /// The rectangle between the axes.
     pub(super) frame: Rectangle,
+    /// Left end of the panel's place \[pt\].
+    pub(super) left: f64,
     /// Room at the right of the frame for a legend \[pt\].
     pub(super) room_right: f64,
     pub(super) x: Scale,
@@ -90,7 +96,7 @@ impl<'a> Panel<'a> {
             right: outer.right - 20.0 - room_right,
             bottom: outer.bottom - label - TICK_FONT - 14.0,
         };
-        Self { chart, frame, room_right, x, y, notes }
+        Self { chart, frame, left: outer.left, room_right, x, y, notes }
     }
 
     /// Draws everything, from the back to the front.
@@ -220,8 +226,9 @@ impl<'a> Panel<'a> {
         strokes: &[coincidence::Stroke],
     ) -> Result<(), IoError> {
         let colour = Colour::palette(shape);
-        if self.chart.series[number].style == SeriesStyle::Points {
-            return self.symbols(number).try_for_each(|at| draw_symbol(canvas, at, colour, shape));
+        let style = self.chart.series[number].style;
+        if style.is_unconnected() {
+            return self.symbols(number).try_for_each(|at| draw_symbol(canvas, at, colour, (style, shape)));
         }
         strokes.iter().try_for_each(|(line, pattern)| draw_line(canvas, line, colour, *pattern))?;
         self.lone_points(number).try_for_each(|at| canvas.disc(at, LONE, colour))
@@ -248,13 +255,20 @@ pub(super) fn draw_symbol<DB: DrawingBackend>(
     canvas: &Canvas<DB>,
     (x, y): Point,
     colour: Colour,
-    shape: usize,
+    (style, shape): (SeriesStyle, usize),
 ) -> Result<(), IoError> {
+    if style == SeriesStyle::Crosses {
+        let arm = |dx: f64| [(x - dx, y - CROSS), (x + dx, y + CROSS)];
+        canvas.line(&arm(CROSS), colour, THIN)?;
+        return canvas.line(&arm(-CROSS), colour, THIN);
+    }
+    let open = style == SeriesStyle::Rings;
     let corners: &[Point] = match shape % 4 {
         0 => {
             // A white rim keeps symbols apart from one another and from the curve below.
             canvas.disc((x, y), 4.0, Colour::WHITE)?;
-            return canvas.disc((x, y), 3.2, colour);
+            canvas.disc((x, y), 3.2, colour)?;
+            return if open { canvas.disc((x, y), 2.1, Colour::WHITE) } else { Ok(()) };
         }
         1 => &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)],
         2 => &[(0.0, -1.4), (1.3, 0.9), (-1.3, 0.9)],
@@ -262,5 +276,6 @@ pub(super) fn draw_symbol<DB: DrawingBackend>(
     };
     let place = |size: f64| corners.iter().map(|(dx, dy)| (x + size * dx, y + size * dy)).collect::<Vec<_>>();
     canvas.fill(&place(3.8), Colour::WHITE, 1.0)?;
-    canvas.fill(&place(2.9), colour, 1.0)
+    canvas.fill(&place(2.9), colour, 1.0)?;
+    if open { canvas.fill(&place(1.8), Colour::WHITE, 1.0) } else { Ok(()) }
 }

@@ -23,12 +23,14 @@ pub struct PlotFormat {
     pub(super) write: fn(&Figure, &Path) -> Result<(), IoError>,
 }
 
-/// Charts under one another in one picture, their axes in line.
+/// Charts under one another in one picture, their axes in line, perhaps in more than one column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     title: String,
     panels: Vec<Chart>,
+    columns: usize,
     size: Option<(u32, u32)>,
+    dpi: Option<u32>,
 }
 
 impl Figure {
@@ -37,6 +39,9 @@ impl Figure {
 
     /// Width unless told otherwise \[pt\].
     const WIDTH: u32 = 640;
+
+    /// By how much a further column of charts widens it \[pt\].
+    const FURTHER_COLUMN: u32 = 280;
 
     /// A figure without charts.
     pub fn new() -> Self {
@@ -57,11 +62,52 @@ impl Figure {
         self
     }
 
-    /// Sets the size of the whole figure \[pt\]; a PNG has two pixels per point.
+    /// Sets the number of charts beside one another; the first row is filled first.
+    #[must_use]
+    pub fn columns(mut self, columns: usize) -> Self {
+        self.columns = columns;
+        self
+    }
+
+    /// Fewest and most pixels to the inch.
+    pub const RESOLUTIONS: [u32; 2] = [36, 600];
+
+    /// Sets the number of pixels to the inch of a PNG, 144 unless told otherwise; kept within [`Self::RESOLUTIONS`].
+    #[must_use]
+    pub fn dpi(mut self, dpi: u32) -> Self {
+        self.dpi = Some(dpi);
+        self
+    }
+
+    /// Pixels to the inch.
+    pub(super) fn resolution(&self) -> u32 {
+        let [least, most] = Self::RESOLUTIONS;
+        self.dpi.unwrap_or(raster::DPI).clamp(least, most)
+    }
+
+    /// Sets the size of the whole figure \[pt\]; a PNG has two pixels per point unless told otherwise.
     #[must_use]
     pub fn sized(mut self, width: u32, height: u32) -> Self {
         self.size = Some((width, height));
         self
+    }
+
+    /// The figure as SVG, to stand in a page.
+    ///
+    /// # Errors
+    /// A size that cannot be drawn.
+    pub fn to_svg(&self) -> Result<String, IoError> {
+        self.check_size()?;
+        vector::text(self)
+    }
+
+    fn check_size(&self) -> Result<(), IoError> {
+        let (width, height) = self.size();
+        let [least, most] = Self::SIDES;
+        if [width, height].into_iter().any(|side| !(least..=most).contains(&side)) {
+            return Err(IoError::PictureSize { width, height, least, most });
+        }
+        Ok(())
     }
 
     /// Writes the figure; the ending of `path` names the format.
@@ -76,22 +122,27 @@ impl Figure {
             given: ending.into_owned(),
             known: FORMATS.iter().map(|format| format.extension).collect::<Vec<_>>().join(", "),
         })?;
-        let (width, height) = self.size();
-        let [least, most] = Self::SIDES;
-        if [width, height].into_iter().any(|side| !(least..=most).contains(&side)) {
-            return Err(IoError::PictureSize { width, height, least, most });
-        }
+        self.check_size()?;
         (format.write)(self, path)
     }
 
     /// Width and height \[pt\].
     pub(super) fn size(&self) -> (u32, u32) {
-        let automatic = match self.panels.len() {
-            0 | 1 => 420,
+        let [columns, rows] = self.grid();
+        let width = Self::WIDTH + Self::FURTHER_COLUMN * (columns as u32 - 1);
+        let height = match rows {
+            0 | 1 if columns == 1 => 420,
+            0 | 1 => 340,
             // Fifteen panels fill the tallest figure; more share its height.
             many => (270 * many.min(14)) as u32,
         };
-        self.size.unwrap_or((Self::WIDTH, automatic))
+        self.size.unwrap_or((width.min(Self::SIDES[1]), height))
+    }
+
+    /// Columns and rows.
+    fn grid(&self) -> [usize; 2] {
+        let columns = self.columns.clamp(1, self.panels.len().max(1));
+        [columns, self.panels.len().div_ceil(columns)]
     }
 
     /// Draws all charts.
@@ -107,13 +158,19 @@ impl Figure {
             canvas.text((0.5 * right, 9.0), &self.title, setting)?;
             top = 26.0;
         }
-        let share = (bottom - top) / self.panels.len().max(1) as f64;
-        // One left margin for all, so that axes with the same quantity lie above one another.
-        let left = self.panels.iter().map(|chart| draw::left_margin(chart, share)).fold(0.0, f64::max);
+        let [columns, rows] = self.grid();
+        let share = (bottom - top) / rows.max(1) as f64;
+        let width = right / columns as f64;
+        // One left margin for each column, so that axes with the same quantity lie above one another.
+        let margin = |number: usize| draw::left_margin(&self.panels[number], share);
+        let in_column = |column: usize| (column..self.panels.len()).step_by(columns);
+        let margins: Vec<f64> =
+            (0..columns).map(|column| in_column(column).map(margin).fold(0.0, f64::max)).collect();
         let panel = |number: usize, room_right: f64| {
-            let top = top + share * number as f64;
-            let outer = Rectangle { left: 0.0, top, right, bottom: top + share };
-            Panel::new(&self.panels[number], outer, left, room_right)
+            let (column, row) = (number % columns, number / columns);
+            let (left, top) = (width * column as f64, top + share * row as f64);
+            let outer = Rectangle { left, top, right: left + width, bottom: top + share };
+            Panel::new(&self.panels[number], outer, margins[column], room_right)
         };
         let all = 0..self.panels.len();
         let room_right =
@@ -172,6 +229,23 @@ mod tests {
         let count = image.pixels.iter().filter(|&&pixel| pixel == [red, green, blue]).count();
         assert!(count > 300, "a diagonal over most of the picture: {count} pixels");
         assert_eq!(image.pixel(0, 0), [255; 3]);
+    }
+
+    #[test]
+    fn a_png_of_other_resolution_has_as_many_pixels_to_the_inch() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("chart.png");
+        // 144 pt are two inches.
+        for (dpi, width) in [(72, 144), (300, 600), (600, 1200)] {
+            let curve = Series::line("", [(0.0, 0.0), (1.0, 1.0)]);
+            let figure = Figure::new().panel(Chart::new("").series(curve)).sized(144, 144).dpi(dpi);
+            figure.write(&path).unwrap();
+            assert_eq!(Decoded::open(&path).unwrap().width, width);
+            let file = std::io::BufReader::new(std::fs::File::open(&path).unwrap());
+            let reader = png::Decoder::new(file).read_info().unwrap();
+            let written = f64::from(reader.info().pixel_dims.unwrap().xppu) * 0.0254;
+            assert!((written - f64::from(dpi)).abs() < 0.1, "{written}");
+        }
     }
 
     #[test]

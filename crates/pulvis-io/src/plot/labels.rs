@@ -183,7 +183,7 @@ impl Panel<'_> {
         let [x_label, y_label] = &ticks.labels;
         let below = bottom + TICK_FONT + 10.0;
         canvas.text((middle, below), x_label, setting(LABEL_FONT, Across::Top, false))?;
-        canvas.text((8.0, height), y_label, setting(LABEL_FONT, Across::Top, true))?;
+        canvas.text((self.left + 8.0, height), y_label, setting(LABEL_FONT, Across::Top, true))?;
         let above = height_above("", self.chart.sections.len(), self.notes.len()) - 14.0;
         let title = setting(TITLE_FONT, Across::Bottom, false);
         canvas.text((middle, top - 5.0 - above), &self.chart.title, title)

@@ -87,9 +87,11 @@ fn draw_sample<DB: DrawingBackend>(
 ) -> Result<(), IoError> {
     let colour = Colour::palette(number);
     match style {
-        SeriesStyle::Points => draw_symbol(canvas, (x + 0.5 * SAMPLE, y), colour, number),
-        SeriesStyle::Line => draw_line(canvas, &[(x, y), (x + SAMPLE, y)], colour, None),
+        symbol if symbol.is_unconnected() => {
+            draw_symbol(canvas, (x + 0.5 * SAMPLE, y), colour, (symbol, number))
+        }
         SeriesStyle::Dashed => draw_line(canvas, &[(x, y), (x + SAMPLE, y)], colour, Some(DASH)),
+        _ => draw_line(canvas, &[(x, y), (x + SAMPLE, y)], colour, None),
     }
 }
 

@@ -7,7 +7,8 @@
 //! Points that are not finite (or not positive on a logarithmic axis) are gaps in their line; infinities are marked by
 //! arrows at the edge, and notes above the panel tell what cannot be shown, of which curve, and from where on. A panel
 //! without a finite value says so. A curve is dashed where it hides an earlier one. A power of ten that an axis leaves
-//! out becomes the prefix of its unit.
+//! out becomes the prefix of its unit. In all texts `k_{p}` stands for a k with a lowered p,
+//! `k^{a}` for one with a raised a.
 //!
 //! ```
 //! use pulvis_io::plot::{Chart, Figure, Series};
@@ -43,6 +44,7 @@ mod labels;
 mod legend;
 mod placing;
 pub(crate) mod raster;
+pub(crate) mod script;
 mod text;
 pub(crate) mod unit;
 mod unlocated;

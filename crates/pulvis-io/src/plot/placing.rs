@@ -1,7 +1,6 @@
 //! Where labels hide least.
 
 use super::canvas::text_width;
-use super::chart::SeriesStyle;
 use super::draw::{Mark, Panel, TICK_FONT};
 use super::geometry::{Point, Rectangle, dashes};
 
@@ -12,7 +11,7 @@ const STEP: f64 = 3.0;
 pub(super) fn occupied(panel: &Panel<'_>) -> Vec<Point> {
     let mut places: Vec<Point> = panel.marks().iter().flat_map(Mark::corners).collect();
     for (number, series) in panel.chart.series.iter().enumerate() {
-        if series.style == SeriesStyle::Points {
+        if series.style.is_unconnected() {
             places.extend(panel.symbols(number).flat_map(|symbol| [symbol; 3]));
             continue;
         }

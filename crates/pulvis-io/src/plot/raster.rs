@@ -8,39 +8,54 @@ use png::{BitDepth, ColorType, Compression, Encoder, PixelDimensions, Unit};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Pixels of the file per point: sharp on paper and on dense screens.
-const PIXELS_PER_POINT: u32 = 2;
+/// Pixels to the inch unless told otherwise, two to a point: sharp on paper and on dense screens.
+pub(crate) const DPI: u32 = 144;
 
-/// Drawn pixels per pixel of the file, in each direction.
-const OVERSAMPLING: u32 = 3;
+/// Points to the inch.
+const POINTS: f64 = 72.0;
+
+/// Drawn pixels per pixel of the file, in each direction. Fine pixels need less smoothing, and would take much memory.
+fn oversampling(dpi: u32) -> u32 {
+    match dpi {
+        ..=200 => 3,
+        201..=400 => 2,
+        _ => 1,
+    }
+}
 
 /// Portable network graphics.
 pub(super) const FORMAT: PlotFormat =
     PlotFormat { extension: "png", summary: "pixels, for slides and web pages", write };
 
 fn write(figure: &Figure, path: &Path) -> Result<(), IoError> {
+    let (dpi, times) = (figure.resolution(), oversampling(figure.resolution()));
+    let scale = f64::from(dpi) / POINTS;
     let (width, height) = figure.size();
-    let (width, height) = (width * PIXELS_PER_POINT, height * PIXELS_PER_POINT);
-    let (wide, high) = (width * OVERSAMPLING, height * OVERSAMPLING);
+    let [width, height] = [width, height].map(|side| (f64::from(side) * scale).round() as u32);
+    let (wide, high) = (width * times, height * times);
     let mut large = vec![255_u8; 3 * wide as usize * high as usize];
     {
         let area = BitMapBackend::with_buffer(&mut large, (wide, high)).into_drawing_area();
-        figure.draw(&Canvas::new(area, f64::from(PIXELS_PER_POINT * OVERSAMPLING), Stroke::Filled))?;
+        figure.draw(&Canvas::new(area, scale * f64::from(times), Stroke::Filled))?;
     }
-    let pixels = average(&large, wide as usize, OVERSAMPLING as usize);
-    file::replace(path, |out| encode(out, &pixels, width, height))
+    let pixels = average(&large, wide as usize, times as usize);
+    file::replace(path, |out| encode(out, &pixels, [width, height], dpi))
 }
 
-/// Pixels of the file per metre on paper: 144 to the inch, so that fonts come out in the sizes that were asked for.
-const PIXELS_PER_METRE: u32 = (PIXELS_PER_POINT as f64 * 72.0 / 0.0254 + 0.5) as u32;
-
-/// Writes pixels (red, green, blue) as PNG, with their size on paper.
-pub(crate) fn encode(out: &mut impl Write, pixels: &[u8], width: u32, height: u32) -> io::Result<()> {
+/// Writes pixels (red, green, blue) as PNG, with their number to the inch.
+pub(crate) fn encode(
+    out: &mut impl Write,
+    pixels: &[u8],
+    [width, height]: [u32; 2],
+    dpi: u32,
+) -> io::Result<()> {
     let mut encoder = Encoder::new(out, width, height);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Fast);
-    let (xppu, yppu) = (PIXELS_PER_METRE, PIXELS_PER_METRE);
+    // Pixels per metre on paper, so that fonts come out in the sizes that were asked for.
+    let per_metre = (f64::from(dpi) / 0.0254).round() as u32;
+    let (xppu, yppu) = (per_metre, per_metre);
     encoder.set_pixel_dims(Some(PixelDimensions { xppu, yppu, unit: Unit::Meter }));
     let mut writer = encoder.write_header().map_err(io::Error::other)?;
     writer.write_image_data(pixels).map_err(io::Error::other)?;

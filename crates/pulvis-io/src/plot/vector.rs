@@ -15,6 +15,12 @@ pub(super) const FORMAT: PlotFormat =
     PlotFormat { extension: "svg", summary: "lines and text, for papers and web pages", write };
 
 fn write(figure: &Figure, path: &Path) -> Result<(), IoError> {
+    let text = text(figure)?;
+    file::replace(path, |out| out.write_all(text.as_bytes()))
+}
+
+/// The figure as SVG.
+pub(super) fn text(figure: &Figure) -> Result<String, IoError> {
     let (width, height) = figure.size();
     let mut text = String::new();
     {
@@ -31,9 +37,5 @@ fn write(figure: &Figure, path: &Path) -> Result<(), IoError> {
     } else {
         format!("<svg width=\"{width}\" height=\"{height}\" stroke-linejoin=\"round\" viewBox")
     };
-    let body = body.replace("font-family=\"sans-serif\"", "font-family=\"DejaVu Sans, Verdana, sans-serif\"");
-    file::replace(path, |out| {
-        out.write_all(head.as_bytes())?;
-        out.write_all(body.as_bytes())
-    })
+    Ok(head + &body.replace("font-family=\"sans-serif\"", "font-family=\"DejaVu Sans, Verdana, sans-serif\""))
 }

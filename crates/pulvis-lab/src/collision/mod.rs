@@ -22,6 +22,7 @@ pub use closed_form::{ClosedForm, closed_form};
 pub use error::CollisionError;
 pub use oblique::{ObliqueOutcome, ObliqueSample};
 pub use outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
+pub(crate) use picture::{case_label, drawn_course, fine_cases, sticking_limits};
 pub use picture::{figure, sampling_interval};
 pub use sticking::sticking_ranges;
 pub use table::{

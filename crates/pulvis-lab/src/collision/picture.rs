@@ -40,19 +40,19 @@ pub fn figure(scenario: &CollisionScenario, points: &[SweepPoint]) -> Result<Fig
     let chosen = representatives(points);
     let mut courses = Vec::new();
     for point in &chosen {
-        courses.push((*point, course(scenario, &point.case)?));
+        courses.push((*point, drawn_course(scenario, &point.case)?));
     }
     let mut loops =
         Chart::new("Force over overlap").x_label("overlap δ [m]").y_label("force f [N]").zero_line();
     for (point, course) in &courses {
         let line = course.course.iter().map(|sample| (sample.overlap, sample.force));
-        loops = loops.series(Series::line(label(scenario, &point.case), line));
+        loops = loops.series(Series::line(case_label(scenario, &point.case), line));
     }
     figure = figure.panel(loops);
     // A pair that sticks shows most; otherwise the middle one.
     let sticking = courses.iter().find(|(point, _)| point.collision.outcome.regime == Regime::Stick);
     if let Some((point, course)) = sticking.or(courses.get(courses.len() / 2)) {
-        figure = figure.panel(energy_chart(&label(scenario, &point.case), course));
+        figure = figure.panel(energy_chart(&case_label(scenario, &point.case), course));
     }
     Ok(figure)
 }
@@ -62,7 +62,11 @@ pub fn sampling_interval(case: &CollisionCase) -> f64 {
     Problem::new(case).shortest_time / 60.0
 }
 
-fn course(scenario: &CollisionScenario, case: &CollisionCase) -> Result<Collision, CollisionError> {
+/// A collision with its course; a pair that sticks is followed for a while.
+pub(crate) fn drawn_course(
+    scenario: &CollisionScenario,
+    case: &CollisionCase,
+) -> Result<Collision, CollisionError> {
     let time_after_sticking = if scenario.time_after_sticking > 0.0 {
         scenario.time_after_sticking
     } else {
@@ -81,7 +85,8 @@ fn representatives(points: &[SweepPoint]) -> Vec<&SweepPoint> {
     (0..LOOPS).filter_map(|number| points.get(place(number))).collect()
 }
 
-fn label(scenario: &CollisionScenario, case: &CollisionCase) -> String {
+/// The swept variable of a collision and its value.
+pub(crate) fn case_label(scenario: &CollisionScenario, case: &CollisionCase) -> String {
     let symbol = axis_symbol(&scenario.variable);
     if is_angle(&scenario.variable) {
         return format!("{symbol} = {}°", pulvis_io::table::significant(case.value.to_degrees(), 4));
@@ -96,7 +101,7 @@ fn label(scenario: &CollisionScenario, case: &CollisionCase) -> String {
 fn axis_symbol(variable: &SweptVariable) -> &str {
     match variable {
         SweptVariable::Single | SweptVariable::Velocity => "v",
-        SweptVariable::NormalVelocity => "vₙ",
+        SweptVariable::NormalVelocity => "v_{n}",
         SweptVariable::Chi => "χ",
         SweptVariable::Zeta => "ζ",
         SweptVariable::Key { path, .. } => path.rsplit('.').next().unwrap_or(path),
@@ -116,11 +121,11 @@ fn axis_value(scenario: &CollisionScenario, point: &SweepPoint) -> f64 {
 
 fn axis_label(variable: &SweptVariable) -> String {
     match variable {
-        SweptVariable::NormalVelocity => "relative velocity along the line of centres vₙ [m/s]".to_owned(),
+        SweptVariable::NormalVelocity => "relative velocity along the line of centres v_{n} [m/s]".to_owned(),
         SweptVariable::Key { .. } if is_angle(variable) => "angle of incidence [deg]".to_owned(),
         SweptVariable::Single | SweptVariable::Velocity => "relative velocity v [m/s]".to_owned(),
-        SweptVariable::Chi => "impact velocity χ = v/vₚ₀ [1]".to_owned(),
-        SweptVariable::Zeta => "impact velocity ζ = v/vₚ [1]".to_owned(),
+        SweptVariable::Chi => "impact velocity χ = v/v_{p0} [1]".to_owned(),
+        SweptVariable::Zeta => "impact velocity ζ = v/v_{p} [1]".to_owned(),
         SweptVariable::Key { path, unit } => format!("{path} [{unit}]"),
     }
 }
@@ -137,43 +142,48 @@ fn restitution_chart(scenario: &CollisionScenario, points: &[SweepPoint]) -> Cha
         // Often it is the same at all angles: the axis shall not show round-off.
         chart = chart.zero_line();
     }
-    let theory = theory_line(scenario, points);
+    let theory = theory_line(scenario, 0);
     if theory.iter().any(|(_, restitution)| restitution.is_finite()) {
         chart = chart.series(Series::line("theory", theory));
     }
     let computed =
         points.iter().map(|point| (axis_value(scenario, point), point.collision.outcome.restitution));
     chart = chart.series(Series::points("computed", computed));
-    for (value, name) in limits(scenario, points) {
+    for (value, name) in sticking_limits(scenario, points) {
         chart = chart.marker(value, name);
     }
     chart
 }
 
-/// The closed form from the first to the last value, evaluated at many values of its own: a straight line from point to
-/// point would be no theory.
-fn theory_line(scenario: &CollisionScenario, points: &[SweepPoint]) -> Vec<(f64, f64)> {
-    let values = points.iter().map(|point| point.case.value).filter(|value| value.is_finite());
+/// The closed form of the restitution from the first to the last value.
+fn theory_line(scenario: &CollisionScenario, contact_number: usize) -> Vec<(f64, f64)> {
+    let restitution = |case: &CollisionCase| closed_form(case).map_or(f64::NAN, |theory| theory.restitution);
+    fine_cases(scenario, contact_number).iter().map(|case| (case.value, restitution(case))).collect()
+}
+
+/// The collisions of a contact from the first to the last value of the sweep, at many values of its own: a straight line
+/// from point to point would be no theory. Values that the file refuses are left out.
+pub(crate) fn fine_cases(scenario: &CollisionScenario, contact_number: usize) -> Vec<CollisionCase> {
+    let cases = || scenario.cases.iter().filter(|case| case.contact_number == contact_number);
+    let values = cases().map(|case| case.value).filter(|value| value.is_finite());
     let ends = values.fold(None, |ends: Option<(f64, f64)>, value| {
         Some(ends.map_or((value, value), |(low, high)| (low.min(value), high.max(value))))
     });
-    let (Some((low, high)), Some(first)) = (ends, points.first()) else { return Vec::new() };
+    let (Some((low, high)), Some(first)) = (ends, cases().next()) else { return Vec::new() };
     let unit = speed_unit(scenario, first);
     let case = |value: f64| match &unit {
-        Some(unit) => Some(CollisionCase { velocity: unit.velocity(value), ..first.case.clone() }),
-        None => scenario.case_at(value),
+        Some(unit) => Some(CollisionCase { value, velocity: unit.velocity(value), ..first.clone() }),
+        None => scenario.case_at(value, contact_number),
     };
     let at = |number: u32| {
         let share = f64::from(number) / f64::from(LINE_POINTS);
-        let value = if scenario.logarithmic {
+        if scenario.logarithmic {
             low * elementary::powf(high / low, share)
         } else {
             low + (high - low) * share
-        };
-        let theory = case(value).and_then(|case| closed_form(&case));
-        (value, theory.map_or(f64::NAN, |theory| theory.restitution))
+        }
     };
-    (0..=LINE_POINTS).map(at).collect()
+    (0..=LINE_POINTS).filter_map(|number| case(at(number))).collect()
 }
 
 /// What one unit of the swept variable is in m/s, where it is a speed.
@@ -201,8 +211,8 @@ impl SpeedUnit {
     }
 }
 
-fn speed_unit(scenario: &CollisionScenario, point: &SweepPoint) -> Option<SpeedUnit> {
-    let pair = luding_pair(&point.case.contact, &point.case.bodies.pair());
+fn speed_unit(scenario: &CollisionScenario, case: &CollisionCase) -> Option<SpeedUnit> {
+    let pair = luding_pair(&case.contact, &case.bodies.pair());
     match scenario.variable {
         SweptVariable::Velocity => Some(SpeedUnit { pair: None, unit: 1.0 }),
         SweptVariable::Chi => pair.map(|pair| SpeedUnit { pair: Some(pair), unit: pair.v_p0() }),
@@ -215,9 +225,12 @@ fn speed_unit(scenario: &CollisionScenario, point: &SweepPoint) -> Option<SpeedU
 }
 
 /// The limits of the sticking ranges within the chart; exact without a dashpot only, so else none.
-fn limits(scenario: &CollisionScenario, points: &[SweepPoint]) -> Vec<(f64, &'static str)> {
+pub(crate) fn sticking_limits(
+    scenario: &CollisionScenario,
+    points: &[SweepPoint],
+) -> Vec<(f64, &'static str)> {
     let Some(first) = points.first() else { return Vec::new() };
-    let Some(unit) = speed_unit(scenario, first) else { return Vec::new() };
+    let Some(unit) = speed_unit(scenario, &first.case) else { return Vec::new() };
     if closed_form(&first.case).is_none() {
         return Vec::new();
     }
@@ -275,7 +288,7 @@ mod tests {
     #[test]
     fn the_theory_line_of_a_swept_parameter_is_theory_between_the_points_too() {
         let few = scenario("[0, 20, 300]");
-        let line = theory_line(&few, &sweep(&few, false).unwrap());
+        let line = theory_line(&few, 0);
         assert_eq!(line.len(), LINE_POINTS as usize + 1);
         let mut apart = 0.0_f64;
         // What is integrated, not the closed form, says what is right between the points.

@@ -79,7 +79,7 @@ const BRIEF_OBLIQUE: [&str; 10] = [
 ];
 
 /// One row a collision. Where contacts are compared, the name of the contact stands in one more column; where a parameter
-/// is swept, its value in the last. A `brief` table leaves out what would not fit on a screen.
+/// is swept, its value in the last, that of a second variable in the one before. A `brief` table leaves out what would not fit on a screen.
 ///
 /// # Errors
 /// None in practice: every row has all columns.
@@ -99,16 +99,19 @@ pub fn result_table(
         SweptVariable::Key { path, .. } => Some(path.as_str()),
         _ => None,
     };
-    let several = scenario.labels.len() > 1;
+    let family = scenario.family.as_ref();
+    let several = scenario.labels.len() > 1 && family.is_none();
     let names = columns().map(|(_, name)| name);
-    let mut table = Table::new(names.chain(several.then_some("contact")).chain(key));
+    let second = family.map(|family| family.path.as_str());
+    let mut table = Table::new(names.chain(several.then_some("contact")).chain(second).chain(key));
     for point in points {
         let label = scenario.labels.get(point.case.contact_number).filter(|_| several);
         let label = label.map(|label| Cell::from(label.as_str()));
         let value = key.map(|_| Cell::Number(point.case.value));
         let cells: Vec<Cell> = cells(point).into_iter().chain(oblique_cells(point)).collect();
         let wanted = columns().map(|(number, _)| cells.get(number).cloned().unwrap_or(Cell::Empty));
-        table.push(wanted.chain(label).chain(value))?;
+        let second = family.map(|family| family.values.get(point.case.contact_number).copied().into());
+        table.push(wanted.chain(label).chain(second).chain(value))?;
     }
     Ok(table)
 }

@@ -1,0 +1,161 @@
+//! What the axes of a figure can show, and in which units.
+
+use crate::collision::{CollisionCase, luding_pair};
+use pulvis_contact::theory::LudingPair;
+
+/// What a quantity is a property of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// A whole collision.
+    Collision,
+    /// An instant of a collision.
+    Course,
+    /// An instant of a contact on a prescribed path.
+    Path,
+}
+
+/// A quantity that an axis can show or a check can judge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// Its key, which is the name of a column in the tables of `pulvis collide` and `pulvis probe`.
+    pub name: &'static str,
+    /// In words.
+    pub words: &'static str,
+    /// Its symbol; subscripts stand in `_{}`.
+    pub symbol: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+}
+
+const fn quantity(
+    name: &'static str,
+    words: &'static str,
+    symbol: &'static str,
+    unit: &'static str,
+) -> Quantity {
+    Quantity { name, words, symbol, unit }
+}
+
+/// Quantities of whole collisions.
+pub const OF_COLLISIONS: &[Quantity] = &[
+    quantity("velocity", "relative velocity", "v", "m/s"),
+    quantity("chi", "impact velocity", "χ = v/v_{p0}", "1"),
+    quantity("zeta", "impact velocity", "ζ = v/v_{p}", "1"),
+    quantity("eta", "plasticity", "η", "1"),
+    quantity("beta", "adhesivity", "β", "1"),
+    quantity("alpha", "attraction at a distance", "α = f_{a}/(v √(k_{1} m_{r}))", "1"),
+    quantity("radius", "radius", "a", "m"),
+    quantity("restitution", "coefficient of restitution", "e", "1"),
+    quantity("returned_energy", "returned part of the energy", "e²", "1"),
+    quantity("overlap_max", "largest overlap", "δ_{max}", "m"),
+    quantity("overlap_end", "overlap of the first stop", "δ_{c}", "m"),
+    quantity("contact_duration", "contact duration", "t", "s"),
+];
+
+/// What checks of whole collisions can judge beside them.
+pub const JUDGED: &[Quantity] = &[
+    quantity("limits", "limits of sticking, relative", "", "1"),
+    quantity("regime", "number of collisions that end otherwise", "", "1"),
+];
+
+/// Quantities along the course of a collision.
+pub const OF_COURSES: &[Quantity] = &[
+    quantity("time", "time", "t", "s"),
+    quantity("overlap", "overlap", "δ", "m"),
+    quantity("force", "force", "f", "N"),
+    quantity("delta_max", "remembered overlap", "δ_{max}", "m"),
+    quantity("kinetic", "kinetic energy", "E_{kin}", "J"),
+    quantity("potential_available", "available potential energy", "E_{pot}", "J"),
+    quantity("potential_plastic", "potential energy of the branch", "E_{pot}", "J"),
+    quantity("dissipated", "dissipated energy", "D", "J"),
+];
+
+/// Quantities along the path of a probe.
+pub const OF_PATHS: &[Quantity] = &[
+    quantity("overlap", "overlap", "δ", "m"),
+    quantity("force", "force", "f", "N"),
+    quantity("leg", "legs of the path", "", "1"),
+    quantity("stored_energy", "stored energy", "E", "J"),
+    quantity("dissipated", "dissipated energy", "D", "J"),
+    quantity("shear", "displacement along the surface", "s", "m"),
+    quantity("shear_force", "force against sliding", "f_{t}", "N"),
+];
+
+impl Family {
+    /// All its quantities.
+    pub const fn quantities(self) -> &'static [Quantity] {
+        match self {
+            Self::Collision => OF_COLLISIONS,
+            Self::Course => OF_COURSES,
+            Self::Path => OF_PATHS,
+        }
+    }
+
+    /// The quantity of this name.
+    pub fn find(self, name: &str) -> Option<Quantity> {
+        self.quantities().iter().find(|quantity| quantity.name == name).copied()
+    }
+}
+
+/// In units of what a quantity is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Its SI unit.
+    Si,
+    /// The plastic limit overlap δ_p.
+    PlasticLimit,
+    /// The force k1 δ_p.
+    PlasticForce,
+    /// The speed v_p0 = √(k1/m_r) δ_p.
+    PlasticVelocity,
+    /// The time √(m_r/k1).
+    LoadingTime,
+    /// The kinetic energy of the relative motion before.
+    ImpactEnergy,
+}
+
+impl Scale {
+    /// Name in files, symbol in labels and unit of each.
+    pub const NAMED: [(&'static str, Self, &'static str, &'static str); 5] = [
+        ("delta_p", Self::PlasticLimit, "δ_{p}", "m"),
+        ("k1 delta_p", Self::PlasticForce, "(k_{1} δ_{p})", "N"),
+        ("v_p0", Self::PlasticVelocity, "v_{p0}", "m/s"),
+        ("sqrt(m_r/k1)", Self::LoadingTime, "√(m_{r}/k_{1})", "s"),
+        ("E_i", Self::ImpactEnergy, "E_{i}", "J"),
+    ];
+
+    /// How large its unit is: of the `reference` pair, and of the collision itself [SI].
+    pub fn unit(self, reference: &LudingPair, impact_energy: f64) -> f64 {
+        let parameters = reference.parameters();
+        match self {
+            Self::Si => 1.0,
+            Self::PlasticLimit => reference.dp(),
+            Self::PlasticForce => parameters.k1 * reference.dp(),
+            Self::PlasticVelocity => reference.v_p0(),
+            Self::LoadingTime => (parameters.reduced_mass / parameters.k1).sqrt(),
+            Self::ImpactEnergy => impact_energy,
+        }
+    }
+
+    /// What it is called where a value of a quantity stands.
+    pub fn unit_symbol(self, quantity: &Quantity) -> String {
+        let named = Self::NAMED.into_iter().find(|(_, scale, _, _)| *scale == self);
+        named.map_or(quantity.unit, |(_, _, symbol, _)| symbol).trim_matches(['(', ')']).to_owned()
+    }
+
+    /// The axis label of a quantity in this unit.
+    pub fn label(self, quantity: &Quantity) -> String {
+        let Quantity { words, symbol, unit, .. } = quantity;
+        let named = Self::NAMED.into_iter().find(|(_, scale, _, _)| *scale == self);
+        match named {
+            Some((_, _, per, _)) => format!("{words} {symbol}/{per} [1]"),
+            None if symbol.is_empty() => format!("{words} [{unit}]"),
+            None => format!("{words} {symbol} [{unit}]"),
+        }
+    }
+}
+
+/// The pair of a collision, if its contact has a plastic limit to measure by.
+pub fn limited_pair(case: &CollisionCase) -> Option<LudingPair> {
+    luding_pair(&case.contact, &case.bodies.pair()).filter(|pair| pair.dp().is_finite())
+}

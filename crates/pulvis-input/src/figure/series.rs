@@ -1,0 +1,194 @@
+//! One curve of a panel.
+
+use super::axis::FigureAxis;
+use super::data::{FigureData, chosen, contact};
+use super::quantity::{Family, Quantity};
+use super::reference::{ReferenceTable, read_reference};
+use super::{Experiment, Surroundings};
+use crate::collision::CollisionScenario;
+use crate::context::Reported;
+use crate::problem::Problem;
+use crate::quantity::QuantityRule;
+use crate::reader::TableReader;
+use crate::shape::{Boolean, Name, Text};
+use pulvis_math::Dimension;
+
+/// A limit of the closed form of the restitution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Approximation {
+    /// 1 − η χ/2, for χ → 0, S1 section 5.1.
+    Slow,
+    /// (η χ)^(−1/2), for η χ ≫ 1 without adhesion, S1 (C.2).
+    Plastic,
+    /// √(1/(η χ) − β), for η χ ≫ 1 and β ≪ 1, S1 (C.3).
+    WeakAdhesion,
+    /// η^(−1/2) χ^(−1/4), for k2 that grows with √δ_max, S1 (D.2) without its misprint.
+    SquareRoot,
+}
+
+/// What a curve shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Show {
+    /// The closed form.
+    Theory,
+    /// A limit of the closed form.
+    Approximation(Approximation),
+    /// The exact method; along a path the one method that there is.
+    Exact,
+    /// The engine's integrator at the automatic time step.
+    Engine,
+    /// Those collisions of the engine that end in one way.
+    Regime {
+        /// Whether those that stick.
+        sticks: bool,
+    },
+    /// The limits of sticking of each contact: closed forms.
+    Limits,
+    /// The limits of sticking of each contact, searched for by the exact method.
+    SearchedLimits,
+    /// Values of a table.
+    Reference(ReferenceTable),
+}
+
+/// A curve of a panel, or one for each contact or collision that fits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureSeries {
+    /// Index of the data.
+    pub data: usize,
+    /// What it shows.
+    pub show: Show,
+    /// Of one contact only: its number.
+    pub contact: Option<usize>,
+    /// Of one collision of a sweep only: its number among those of a contact.
+    pub case: Option<usize>,
+    /// A quantity on the vertical axis in place of the panel's, of the same unit.
+    pub y: Option<Quantity>,
+    /// What it is called.
+    pub label: Option<String>,
+    /// Whether the legend shows it.
+    pub in_legend: bool,
+}
+
+const SHOWN: [&str; 12] = [
+    "theory",
+    "slow",
+    "plastic",
+    "weak-adhesion",
+    "square-root",
+    "exact",
+    "engine",
+    "engine-sticks",
+    "engine-rebounds",
+    "limits",
+    "searched-limits",
+    "reference",
+];
+
+/// The family that a piece of data has, if a quantity of the name is in it.
+pub(super) fn families(data: &FigureData) -> &'static [Family] {
+    match data.experiment {
+        Experiment::Collisions(_) => &[Family::Collision, Family::Course],
+        Experiment::Probe(_) => &[Family::Path],
+    }
+}
+
+/// Reads a curve of a panel.
+pub(super) fn read_series(
+    mut table: TableReader<'_>,
+    data: &[FigureData],
+    family: Family,
+    axis: Option<&FigureAxis>,
+    around: &Surroundings<'_>,
+) -> Result<FigureSeries, Reported> {
+    let index = chosen(&mut table, data);
+    let name = table.required("show", Name(&SHOWN));
+    let label = table.optional("label", Text);
+    let in_legend = table.or("legend", Boolean, true);
+    let (index, name) = match (index, name) {
+        (Ok(index), Ok(name)) => (index, name),
+        (Err(reported), _) | (_, Err(reported)) => {
+            for key in ["contact", "at", "file", "y"] {
+                let _ = table.value(key);
+            }
+            table.finish();
+            return Err(reported);
+        }
+    };
+    let one = data.get(index).ok_or_else(|| table.refuse("data", Problem::rule("no such data", "a name")))?;
+    if !families(one).contains(&family) {
+        let found = format!("`{}` has no such quantities", one.name);
+        return Err(table.refuse("data", Problem::rule(found, "data of the kind that the axes show")));
+    }
+    let contact = contact(&mut table, one);
+    let case = read_case(&mut table, one);
+    let y = read_y(&mut table, family, axis);
+    let show = match name {
+        "theory" => Ok(Show::Theory),
+        "slow" => Ok(Show::Approximation(Approximation::Slow)),
+        "plastic" => Ok(Show::Approximation(Approximation::Plastic)),
+        "weak-adhesion" => Ok(Show::Approximation(Approximation::WeakAdhesion)),
+        "square-root" => Ok(Show::Approximation(Approximation::SquareRoot)),
+        "exact" => Ok(Show::Exact),
+        "engine" => Ok(Show::Engine),
+        "engine-sticks" => Ok(Show::Regime { sticks: true }),
+        "engine-rebounds" => Ok(Show::Regime { sticks: false }),
+        "limits" => Ok(Show::Limits),
+        "searched-limits" => Ok(Show::SearchedLimits),
+        _ => read_reference(&mut table, "file", around).map(Show::Reference),
+    };
+    let of_whole =
+        matches!(show, Ok(Show::Theory | Show::Approximation(_) | Show::Limits | Show::SearchedLimits));
+    let of_whole = of_whole || matches!(show, Ok(Show::Regime { .. }));
+    if of_whole && family != Family::Collision {
+        let problem = Problem::rule("this is about whole collisions", "\"exact\" or \"engine\"");
+        return Err(table.refuse("show", problem));
+    }
+    if matches!(show, Ok(Show::Engine)) && family == Family::Path {
+        let problem = Problem::rule("a prescribed path has one method", "\"exact\"");
+        return Err(table.refuse("show", problem));
+    }
+    table.finish();
+    Ok(FigureSeries {
+        data: index,
+        show: show?,
+        contact: contact?,
+        case: case?,
+        y: y?,
+        label: label?,
+        in_legend: in_legend?,
+    })
+}
+
+/// A quantity on the vertical axis in place of the panel's.
+fn read_y(
+    table: &mut TableReader<'_>,
+    family: Family,
+    axis: Option<&FigureAxis>,
+) -> Result<Option<Quantity>, Reported> {
+    let Some(name) = table.optional("y", Text)? else { return Ok(None) };
+    let same_unit = |quantity: &&Quantity| axis.is_none_or(|axis| quantity.unit == axis.quantity.unit);
+    let known: Vec<Quantity> = family.quantities().iter().filter(same_unit).copied().collect();
+    let found = known.iter().find(|quantity| quantity.name == name).copied();
+    found.map(Some).ok_or_else(|| {
+        let names: Vec<&str> = known.iter().map(|quantity| quantity.name).collect();
+        table.refuse("y", Problem::unknown_choice(&name, &names))
+    })
+}
+
+/// The collision of a sweep whose value is `at`.
+pub(super) fn read_case(table: &mut TableReader<'_>, data: &FigureData) -> Result<Option<usize>, Reported> {
+    let at = table.optional("at", QuantityRule::of(Dimension::NONE))?;
+    let (Some(at), Experiment::Collisions(scenario)) = (at, &data.experiment) else { return Ok(None) };
+    let values = values(scenario);
+    let near = |value: &f64| (value - at).abs() <= 1e-9 * at.abs();
+    values.iter().position(near).map(Some).ok_or_else(|| {
+        let found = format!("no collision of `{}` has {} = {at}", data.name, scenario.variable.name());
+        table.refuse("at", Problem::rule(found, "one of the values of the sweep"))
+    })
+}
+
+/// The swept values.
+fn values(scenario: &CollisionScenario) -> Vec<f64> {
+    let first = scenario.cases.iter().filter(|case| case.contact_number == 0);
+    first.map(|case| case.value).collect()
+}
