@@ -31,7 +31,32 @@ pub fn run(only: Option<&str>) -> Outcome {
             ran += 1;
         }
     }
+    if only.is_none_or(|name| name == FIGURES) {
+        reproduce(&pulvis)?;
+        ran += 1;
+    }
     if ran == 0 { Err("no experiment was found".to_owned()) } else { Ok(()) }
+}
+
+/// The folder of the papers' figures.
+const FIGURES: &str = "figures";
+
+/// The printed figures of the papers; maps and windows, which search for limits, take longer.
+fn reproduce(pulvis: &Path) -> Outcome {
+    let folder = root().join("experiments").join(FIGURES);
+    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(&folder).map_err(failed)? {
+        let name = entry.map_err(failed)?.file_name().to_string_lossy().into_owned();
+        if ["s0-", "s1-"].iter().any(|paper| name.starts_with(paper)) {
+            names.push(name);
+        }
+    }
+    names.sort();
+    let output = scratch("reproduced")?;
+    let mut command = Command::new(pulvis);
+    command.arg("reproduce").args(&names).arg("--from").arg(&folder).arg("--output").arg(&output);
+    run_command(&mut command)
 }
 
 fn folders(only: Option<&str>) -> Outcome<Vec<PathBuf>> {

@@ -18,6 +18,16 @@ pub fn run_all() -> Outcome {
     run(pulvis().arg("collide").arg(scenario).arg("--plot").arg(&restitution).arg("--force"))?;
     copy(&restitution, &root().join("experiments/restitution/restitution.png"))?;
 
+    let folder = scratch("figures_reproduced")?;
+    let names = ["s1-05", "s1-09", "s1-15"];
+    run(pulvis().arg("reproduce").args(names).arg("--dpi").arg("100").arg("--output").arg(&folder))?;
+    for name in names {
+        copy(
+            &folder.join(name).with_extension("png"),
+            &root().join(format!("docs/book/src/figures/{name}.png")),
+        )?;
+    }
+
     let folder = scratch("tablet_short")?;
     let scenario = root().join("experiments/tablet/short.toml");
     run(pulvis().arg("run").arg(scenario).arg("--output").arg(&folder).arg("--force"))?;

@@ -191,3 +191,33 @@ fn a_reader_that_goes_away_is_no_error() {
     assert_eq!(error(&output), "");
     assert_eq!(output.status.code(), Some(0));
 }
+
+#[test]
+fn a_second_variable_has_a_column_in_one_table_and_a_picture_of_all_curves() {
+    let folder = folder("family");
+    let scenario = folder.join("family.toml");
+    let text = fs::read_to_string(EXPERIMENT).unwrap();
+    let family = "[collision.family]\nvariable = \"contact.normal.kc\"\nvalues = [\"10 N/m\", \"100 N/m\"]\n\n[contact.normal]";
+    fs::write(&scenario, text.replace("[contact.normal]", family)).unwrap();
+    let picture = folder.join("family.png");
+    let arguments = [
+        "collide",
+        scenario.to_str().unwrap(),
+        "--format",
+        "csv",
+        "--plot",
+        picture.to_str().unwrap(),
+        "--dpi",
+        "72",
+    ];
+    let run = pulvis(&arguments);
+    assert_eq!(run.status.code(), Some(0), "{}", error(&run));
+    let table = out(&run);
+    assert!(table.lines().next().unwrap().ends_with(",contact.normal.kc"), "{table}");
+    assert_eq!(table.lines().count(), 1 + 2 * 63);
+    assert!(table.lines().last().unwrap().ends_with(",100"), "{table}");
+    assert!(picture.exists());
+    let refused = pulvis(&["collide", scenario.to_str().unwrap(), "--plot", "e.png", "--dpi", "5000"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(error(&refused).contains("36..=600"), "{}", error(&refused));
+}

@@ -66,7 +66,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if !mistakes.is_empty() {
         return Err(Failure::bad_input(mistakes.join("\n\n")));
     }
-    let figures: Vec<FigureScenario> = read.into_iter().flatten().collect();
+    let mut figures: Vec<FigureScenario> = read.into_iter().flatten().collect();
+    // Printed figures first; they are in the order of their names.
+    figures.sort_by_key(|figure| figure.reproduces.is_empty());
     if arguments.list {
         return list(&figures);
     }

@@ -131,13 +131,15 @@ impl<DB: DrawingBackend> Canvas<DB> {
         let (em, share) = (setting.size * text::EM, setting.along.share());
         let mut right = share * text_width(text, setting.size);
         for Run { text, size, below } in runs {
+            // Readers of SVG drop blanks at the beginning of a text.
+            let word = text.trim_start();
+            right += text::width(text, em * size) - text::width(word, em * size);
             // Each piece has its own place of the kind that `across` asks for; the baselines have to fit.
             let down = em * (setting.across.below() * (1.0 - size) + below);
             let place =
                 if setting.upwards { (at.0 + down, at.1 - right) } else { (at.0 + right, at.1 + down) };
-            let size = setting.size * size;
-            self.run(place, text, Setting { size, along: Along::Start, ..setting })?;
-            right += text_width(text, size);
+            self.run(place, word, Setting { size: setting.size * size, along: Along::Start, ..setting })?;
+            right += text::width(word, em * size);
         }
         Ok(())
     }

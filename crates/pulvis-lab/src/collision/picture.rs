@@ -304,4 +304,26 @@ mod tests {
         }
         assert!(apart > 0.01, "no straight line from point to point: {apart} apart");
     }
+    #[test]
+    fn each_value_of_a_second_variable_has_its_own_contact_theory_and_label() {
+        let text = "[collision]\nbodies = \"wall\"\nradius = \"1.1 mm\"\ndensity = \"2000 kg/m^3\"\n\
+             [collision.sweep]\nvariable = \"chi\"\nvalues = [0.2, 0.4]\n\
+             [collision.family]\nvariable = \"contact.normal.kc\"\nvalues = [\"10 N/m\", \"100 N/m\"]\n\
+             [contact.normal]\nlaw = \"luding\"\nk1 = \"100 N/m\"\nkp = \"500 N/m\"\nkc = \"1 N/m\"\nphi_f = 0.05\n";
+        let document = Document::from_str("family.toml", text).unwrap();
+        let scenario =
+            CollisionScenario::from_document(&document).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(scenario.labels, ["k_{c} = 10 N/m", "k_{c} = 100 N/m"]);
+        let points = sweep(&scenario, false).unwrap();
+        assert_eq!(points.len(), 4);
+        for (number, beta) in [0.1, 1.0].into_iter().enumerate() {
+            let line = theory_line(&scenario, number);
+            let (chi, restitution) = line[LINE_POINTS as usize];
+            // S1 (32), its two terms combined, at η χ = 1.6.
+            let exact: f64 = (1.0 + beta - beta * 1.6) / (1.0 + beta + 1.6);
+            assert!((chi - 0.4).abs() < 1e-15 && (restitution - exact.sqrt()).abs() < 1e-12, "{restitution}");
+            let computed = points[2 * number + 1].collision.outcome.restitution;
+            assert!((computed - restitution).abs() < 1e-10, "{computed}");
+        }
+    }
 }
