@@ -36,6 +36,8 @@ fn assert_goes_on_from_any_step(name: &str, setup: &Setup, mut never_asked: Simu
         let mut imported = import(setup, &state).unwrap();
         assert_eq!(bits(&imported.export_state()), bits(&state), "{name}: not what was imported");
         assert_eq!(imported.candidates(), asked.candidates());
+        assert_eq!(imported.contact_totals(), asked.contact_totals());
+        assert_eq!(imported.ledger(), asked.ledger());
         mid_life += u64::from(state.list.steps > 0);
         imported.set_threads(1 + number % 3).unwrap();
         let mut going_on = asked.clone();

@@ -186,7 +186,8 @@ fn a_powder_that_is_heated_loses_energy_thermally_and_goes_on_from_a_state_with_
     assert!(ledger.relative_error().abs() < 1e-3, "{ledger:?}");
     assert!((powder.temperature().unwrap() - 400.0).abs() < 1e-9);
     let mut continued = Simulation::import_state(interactions, walls, &state).unwrap();
-    continued.set_temperature(Some(program));
+    assert_eq!(continued.temperature(), state.temperature.as_ref().map(|program| program.at(state.time)));
+    assert_eq!(state.temperature.as_ref(), Some(&program));
     continued.advance(700).unwrap();
     assert_eq!(states(&continued), states(&powder));
     assert_eq!(continued.ledger(), ledger);

@@ -33,6 +33,8 @@ pub(crate) struct ContactTable {
     halo_starts: Vec<usize>,
     /// Which chunks are complete.
     hand_over: HandOver,
+    /// The totals of an imported state, until forces are computed.
+    restored: Option<ContactTotals>,
     /// Scratch: one for each worker of the pool.
     sums: Vec<Sums>,
     /// Scratch: one for each worker of the pool.
@@ -156,6 +158,7 @@ impl ContactTable {
         finish: impl Fn(usize, Range<usize>, &mut [ForceTorque]) + Sync,
     ) {
         let count = self.chunks.len();
+        self.restored = None;
         self.sums.resize_with(pool.threads(), Sums::default);
         self.hand_over.begin(pool.threads());
         let pass = ForcePass {
@@ -178,6 +181,9 @@ impl ContactTable {
 
     /// Sums over all contacts, group by group: the same for any number of threads.
     pub(crate) fn totals(&self) -> ContactTotals {
+        if let Some(restored) = self.restored {
+            return restored;
+        }
         let mut sum = ContactTotals::default();
         for group in self.groups() {
             let (touching, overlap_max, virial) = group.totals.sums();
@@ -188,6 +194,11 @@ impl ContactTable {
             sum += ContactTotals { pairs, at_walls, overlap_max, virial };
         }
         sum
+    }
+
+    /// Sets the totals of an imported state, which were summed when its forces were computed.
+    pub(crate) fn restore_totals(&mut self, totals: ContactTotals) {
+        self.restored = Some(totals);
     }
 
     /// The largest k/m_r of all contacts whose law does not bound its stiffness in the last pass [1/s²].

@@ -6,8 +6,14 @@ use super::Simulation;
 use crate::contacts::{BondCount, ContactTotals, ContactView, Views, view_contacts};
 use crate::ledger::Ledger;
 use crate::walls::WallNow;
+use pulvis_boundary::Background;
 
 impl Simulation {
+    /// Gravity and drag.
+    pub fn background(&self) -> &Background {
+        &self.background
+    }
+
     /// Draws up the energy ledger. Looking changes nothing: the scale of relative errors is the largest energy in
     /// motion at the start, at every 64th step and now.
     pub fn ledger(&self) -> Ledger {

@@ -84,7 +84,7 @@ impl Simulation {
     }
 
     /// Sets the temperature over time, which laws that ask for it read from the next step on. Time is that of the
-    /// simulation. It is no part of a [state](crate::State): give it again after an import.
+    /// simulation.
     pub fn set_temperature(&mut self, program: Option<TemperatureProgram>) {
         self.temperature = program;
     }

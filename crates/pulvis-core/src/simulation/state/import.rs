@@ -31,14 +31,16 @@ impl Simulation {
             wall.point = Vector3::from(record.listed_point);
         }
         let particles = particles_of(&state.particles, state.next_id);
-        let State { domain, background, time_step, .. } = *state;
+        let &State { domain, background, time_step, .. } = state;
         let mut simulation =
             Self::without_list(particles, interactions, walls, domain, background, time_step);
+        simulation.temperature.clone_from(&state.temperature);
         simulation.broken_bonds = BrokenBonds::new(&state.broken_bonds);
         simulation.check_models()?;
         simulation.check_walls()?;
         simulation.remake_list(&state.list)?;
         simulation.contacts.import(&simulation.particles.id, &state.memory, &state.list.active)?;
+        simulation.contacts.restore_totals(state.totals);
         simulation.go_to_present(state)?;
         Ok(simulation)
     }

@@ -8,14 +8,14 @@ mod import;
 pub use error::StateError;
 
 use crate::columns::NamedColumn;
-use crate::contacts::{BrokenBond, ContactRecords};
+use crate::contacts::{BrokenBond, ContactRecords, ContactTotals};
 use crate::particles::{MaterialIndex, ParticleId};
-use pulvis_boundary::{Background, Domain};
+use pulvis_boundary::{Background, Domain, TemperatureProgram};
 
 /// Everything that decides the next bit of a simulation, as plain columns. [`Simulation::import_state`] makes a simulation
 /// of it that continues the exported one, bit for bit, for any number of threads and on any instruction set.
 ///
-/// Not included are contact models, the temperature over time, and the names, materials, shapes, areas and motions of walls, which are given again at
+/// Not included are contact models, and the names, materials, shapes, areas and motions of walls, which are given again at
 /// the import; and settings of a run that change no bit: threads, instructions, limits. Everything else in a simulation is
 /// derived from the state.
 ///
@@ -32,6 +32,8 @@ pub struct State {
     pub domain: Domain,
     /// Gravity and drag.
     pub background: Background,
+    /// Temperature over time, if laws are told one.
+    pub temperature: Option<TemperatureProgram>,
     /// Whether the energy ledger is kept.
     pub keeps_ledger: bool,
     /// The id that the next inserted particle will get.
@@ -44,6 +46,8 @@ pub struct State {
     pub list: ListState,
     /// Memory of the contacts, one table for each kind of memory.
     pub memory: Vec<ContactRecords>,
+    /// Sums over all contacts when the forces were computed, for observation.
+    pub totals: ContactTotals,
     /// The pairs whose bond had broken when the list was made.
     pub broken_bonds: Vec<BrokenBond>,
     /// The sums of the energy ledger so far, by name [J, and W for powers].
