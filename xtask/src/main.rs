@@ -24,7 +24,7 @@ const USAGE: &str = "\
 usage: cargo xtask <task>
 
   test                 all tests, and the VTK files read by Python's VTK where it can be installed
-  slow                 every law in beds of 1000 grains, and a hundred times as many random paths (half an hour)
+  slow                 every law in beds of 1000 grains, 200 kills of runs, and a hundred times as many random paths (half an hour)
   ci                   everything that must hold before a change is merged
   experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
   features FOLDER      says what is seen in the tablet's run in FOLDER, and whether it is what was asked for

@@ -22,6 +22,9 @@ pub fn run_all() -> Outcome {
 pub fn run_slow() -> Outcome {
     let beds = ["test", "--release", "-p", "pulvis-core", "--test", "beds", "--", "--ignored", "--nocapture"];
     run(&mut cargo(&beds))?;
+    let killed =
+        ["test", "--release", "-p", "pulvis-cli", "--test", "run_command", "--", "--ignored", "--nocapture"];
+    run(&mut cargo(&killed))?;
     let mut paths = cargo(&[
         "test",
         "--release",

@@ -6,6 +6,7 @@ use crate::load::read_source;
 use crate::overrides::{Replacement, replace};
 use crate::problem::Problem;
 use crate::reader::TableReader;
+use crate::scenario::start::{StartFrom, read_start};
 use crate::setting::set;
 use crate::source::Source;
 use crate::syntax::syntax_errors;
@@ -118,6 +119,36 @@ impl Document {
             paths.push(steps);
         }
         Ok(document)
+    }
+
+    /// The state that the scenario in the file starts from, if it says so. Paths are relative to `folder`.
+    ///
+    /// # Errors
+    /// `start_from` is not what it can be.
+    pub fn start_from(&self, folder: &Path) -> Result<Option<(StartFrom, Location)>, InputErrors> {
+        self.read(|mut root| {
+            let start = read_start(&mut root, folder);
+            // Everything else is read later.
+            for key in root.keys() {
+                root.value(key);
+            }
+            root.finish();
+            start
+        })
+    }
+
+    /// The same file with all keys that it lacks taken from `other`, but for `except`. Errors in them point at `place`.
+    pub fn with_missing_from(&self, other: &Self, except: &[&str], place: &Location) -> Self {
+        let mut root = self.root.clone();
+        for (key, entry) in &other.root.entries {
+            if except.contains(&key.as_str()) || root.entries.contains_key(key) {
+                continue;
+            }
+            let mut entry = entry.clone();
+            entry.move_to(&place.span, self.source.text.len());
+            root.entries.insert(key.clone(), entry);
+        }
+        Self { source: Arc::clone(&self.source), root }
     }
 
     /// The dotted paths of all values that were set from outside the file.

@@ -61,7 +61,25 @@ impl Table {
     }
 }
 
+impl Entry {
+    /// Gives up the places in another file: values stand at `span` from now on, and keys keep their order behind the
+    /// `end` of the text.
+    pub(crate) fn move_to(&mut self, span: &Range<usize>, end: usize) {
+        self.key_span = self.key_span.start + end..self.key_span.end + end;
+        self.node.move_to(span, end);
+    }
+}
+
 impl Node {
+    fn move_to(&mut self, span: &Range<usize>, end: usize) {
+        self.span = span.clone();
+        match &mut self.value {
+            Value::Table(table) => table.entries.values_mut().for_each(|entry| entry.move_to(span, end)),
+            Value::List(items) => items.iter_mut().for_each(|item| item.move_to(span, end)),
+            _ => {}
+        }
+    }
+
     fn from_toml(value: &DeValue<'_>, span: Range<usize>) -> Self {
         let value = match value {
             DeValue::String(text) => Value::Text(text.to_string()),

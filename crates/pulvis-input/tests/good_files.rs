@@ -67,9 +67,11 @@ fn what_is_left_out_has_its_default() {
         timeseries: Interval::Steps(100),
         snapshots: Snapshots::StageEnds,
         plots: true,
+        checkpoints: Some(CheckpointPlan::default()),
         dimensionless: None,
     };
     assert_eq!(scenario.output, expected);
+    assert_eq!(CheckpointPlan::default().wall_clock, 600.0);
     assert_eq!(scenario.particles[0].velocity.mean.to_array(), [1.0, 0.0, 0.0]);
     assert_eq!(scenario.particle_count(), 1);
 }

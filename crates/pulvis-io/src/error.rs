@@ -61,6 +61,14 @@ pub enum IoError {
         /// Line number, from 1.
         line: usize,
     },
+    /// A file of an interrupted run is no longer what it was.
+    #[error("{} has changed since the checkpoint: {problem}; resume from a copy of the run as it was, or run it again", path.display())]
+    Changed {
+        /// The file.
+        path: PathBuf,
+        /// How it has changed.
+        problem: String,
+    },
     /// No writer has this file ending or name.
     #[error("no {what} format is called `{given}`; choose one of: {known}")]
     UnknownFormat {

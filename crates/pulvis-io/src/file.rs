@@ -36,9 +36,22 @@ fn write_all(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result
     file.flush()
 }
 
+/// Hands the folder of a file to the disk: names are as lasting as contents then.
+pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    // Only Unix opens folders.
+    if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
+}
+
+/// The name that a temporary file would have got, had its process not been killed before; `None` for any other name.
+pub fn name_of_temporary(name: &str) -> Option<&str> {
+    let (rest, process) = name.strip_prefix('.')?.strip_suffix(".part")?.rsplit_once('.')?;
+    (!process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit())).then_some(rest)
+}
+
 /// Same folder (a rename across file systems is a copy), hidden, and owned by this process: two runs that share a
 /// folder by mistake do not mix their bytes.
-fn temporary_name(path: &Path) -> PathBuf {
+pub(crate) fn temporary_name(path: &Path) -> PathBuf {
     let mut name = OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
     name.push(format!(".{}.part", std::process::id()));

@@ -10,6 +10,7 @@
 //! | [`plot`] | charts of curves as PNG or SVG | people |
 //! | [`report`] | sections of pictures and tables as one HTML page, and as Markdown | people |
 //! | [`picture`] | packings of spheres as PNG | people |
+//! | [`checkpoint`] | the state of a run, with a checksum | Pulvis; the header: people |
 //!
 //! # Promises shared by all writers
 //!
@@ -33,6 +34,7 @@
 //! ```
 #![allow(clippy::disallowed_methods)] // the last bit of a plotted number is far below a pixel
 
+pub mod checkpoint;
 mod colour;
 mod error;
 mod file;
@@ -45,3 +47,4 @@ pub mod vtk;
 
 pub use colour::{Colour, ColourMap};
 pub use error::IoError;
+pub use file::name_of_temporary;

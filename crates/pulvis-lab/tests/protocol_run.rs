@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
 
 mod protocol_scenarios;
+#[path = "protocol_run/resume.rs"]
+mod resume;
 
 use std::fs;
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
@@ -10,7 +10,9 @@ use pulvis_contact::catalogue::Role;
 use pulvis_contact::theory::CriticalVelocities;
 use pulvis_input::NamedLaw;
 use pulvis_input::scenario::Scenario;
-use pulvis_lab::protocol::{ContactForecast, Preflight, StageForecast, Sticking, memory_forecast, preflight};
+use pulvis_lab::protocol::{
+    ContactForecast, Preflight, StageForecast, Sticking, load_scenario, memory_forecast, preflight,
+};
 
 use super::set::Settings;
 use super::words::{bytes, duration};
@@ -46,8 +48,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Err(last)
 }
 
-fn check(file: &PathBuf, arguments: &Arguments) -> Result<String, Failure> {
-    let scenario = Scenario::load_with(file, &arguments.set.pairs).map_err(Failure::bad_input)?;
+fn check(file: &Path, arguments: &Arguments) -> Result<String, Failure> {
+    let scenario = load_scenario(file, &arguments.set.pairs).map_err(Failure::bad_input)?;
     tell_memory_of_many(&scenario);
     let forecast = preflight(&scenario).map_err(Failure::bad_input)?;
     Ok(describe(&scenario, &forecast))
@@ -151,12 +153,13 @@ fn describe_output(text: &mut String, scenario: &Scenario, forecast: &Preflight)
     let free = disk.free.map_or(String::new(), |free| format!("; {} are free", bytes(free)));
     let _ = writeln!(
         text,
-        "{:<17} {limit}{}: time series {}, {:.0} frames of {}{open}{free}",
+        "{:<17} {limit}{}: time series {}, {:.0} frames of {}, checkpoints {}{open}{free}",
         "",
         bytes(disk.total() as u64),
         bytes(disk.timeseries as u64),
         disk.frames,
-        bytes(disk.frame as u64)
+        bytes(disk.frame as u64),
+        bytes(disk.checkpoints as u64)
     );
 }
 

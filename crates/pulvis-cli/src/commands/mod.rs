@@ -2,6 +2,7 @@
 
 mod check;
 mod collide;
+mod info;
 mod laws;
 mod machine;
 mod picture_file;
@@ -26,6 +27,8 @@ pub enum Command {
     Check(check::Arguments),
     /// Runs the stages of a scenario
     Run(run::Arguments),
+    /// Says what checkpoints of runs hold, and whether they are whole
+    Info(info::Arguments),
     /// Collides two bodies, over a sweep of velocities, angles, spins or law parameters
     Collide(collide::Arguments),
     /// Leads a contact along a prescribed path, as an indenter does
@@ -44,6 +47,7 @@ impl Command {
         match self {
             Self::Check(arguments) => check::execute(arguments),
             Self::Run(arguments) => run::execute(arguments),
+            Self::Info(arguments) => info::execute(arguments),
             Self::Collide(arguments) => collide::execute(arguments),
             Self::Probe(arguments) => probe::execute(arguments),
             Self::Laws(arguments) => laws::execute(arguments),

@@ -8,8 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use pulvis_core::InstructionSet;
-use pulvis_input::scenario::Scenario;
-use pulvis_lab::protocol::{RunOptions, RunSummary, run};
+use pulvis_lab::protocol::{Progress, RunOptions, RunSummary, load_scenario, resume, run};
 
 use super::progress::ProgressLine;
 use super::set::Settings;
@@ -20,7 +19,11 @@ use crate::failure::{Failure, INTERRUPTED, print};
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Scenario file (TOML)
-    file: PathBuf,
+    #[arg(required_unless_present = "resume")]
+    file: Option<PathBuf>,
+    /// Go on with the interrupted run in this folder, from its latest checkpoint, or from the checkpoint file that is named
+    #[arg(long, value_name = "RUN", conflicts_with_all = ["file", "output", "force", "pairs"])]
+    resume: Option<PathBuf>,
     /// Output folder, instead of the scenario's own
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -54,10 +57,13 @@ fn instruction_set(name: &str) -> Result<InstructionSet, String> {
 }
 
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let scenario = Scenario::load_with(&arguments.file, &arguments.set.pairs).map_err(Failure::bad_input)?;
+    let scenario = match &arguments.file {
+        Some(file) => Some(load_scenario(file, &arguments.set.pairs).map_err(Failure::bad_input)?),
+        None => None,
+    };
     let stop = Arc::new(AtomicBool::new(false));
     let handler = Arc::clone(&stop);
-    // A second Ctrl-C while files are being completed changes nothing: they are complete in a moment.
+    // Also SIGTERM and SIGHUP. A second Ctrl-C while files are being completed changes nothing: they are complete in a moment.
     ctrlc::set_handler(move || handler.store(true, Ordering::Relaxed))
         .map_err(|error| Failure::while_running(format!("cannot listen for Ctrl-C: {error}")))?;
     let options = RunOptions {
@@ -69,7 +75,13 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         warn,
     };
     let mut line = ProgressLine::new(arguments.quiet);
-    let result = run(&scenario, &options, &stop, &mut |progress| line.show(progress));
+    let mut watch = |progress: &Progress| line.show(progress);
+    let result = match (&scenario, &arguments.resume) {
+        (Some(scenario), _) => run(scenario, &options, &stop, &mut watch),
+        (None, Some(folder)) => resume(folder, &options, &stop, &mut watch),
+        // One of them is required.
+        (None, None) => return Ok(ExitCode::SUCCESS),
+    };
     line.close();
     let summary = result.map_err(|error| {
         if error.is_bad_input() { Failure::bad_input(error) } else { Failure::while_running(error) }
@@ -81,13 +93,16 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 fn describe(summary: &RunSummary) -> String {
     let state =
         if summary.interrupted() { "interrupted; files are complete up to the last step" } else { "done" };
-    let rate = summary.steps as f64 * summary.particles as f64 / summary.wall_clock.max(1e-9);
+    let steps = summary.steps - summary.steps_before;
+    let rate = steps as f64 * summary.particles as f64 / summary.wall_clock.max(1e-9);
     let mut text = format!(
-        "{state}: {} steps of {} particles in {} ({rate:.2e} particle-steps/s)\n",
-        summary.steps,
+        "{state}: {steps} steps of {} particles in {} ({rate:.2e} particle-steps/s)\n",
         summary.particles,
         duration(summary.wall_clock)
     );
+    if summary.steps_before > 0 {
+        text += &format!("it went on from step {}\n", summary.steps_before);
+    }
     text += &format!(
         "energy ledger: relative closing error {:.1e} at the end, {:.1e} at most\n",
         summary.energy_error, summary.energy_error_max
@@ -102,5 +117,9 @@ fn describe(summary: &RunSummary) -> String {
             text += &format!(", {}", name.to_string_lossy());
         }
     }
-    text + "\n"
+    text += "\n";
+    if summary.can_be_resumed {
+        text += &format!("go on with `pulvis run --resume {}`\n", summary.folder.display());
+    }
+    text
 }

@@ -126,7 +126,7 @@ fn a_folder_that_a_run_would_refuse_and_the_room_for_its_files_are_told() {
     assert_eq!(
         warnings(&text),
         [
-            "`pulvis run` will refuse this: output folder s-run is not empty; choose another one with `--output DIR`, or write over the run in it with `--force`"
+            "`pulvis run` will refuse this: output folder s-run is not empty; choose another one with `--output DIR`, go on with the run in it with `--resume s-run`, or write over that with `--force`"
         ]
     );
     let line = text.lines().find(|line| line.contains(" frames of ")).unwrap();

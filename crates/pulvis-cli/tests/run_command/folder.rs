@@ -46,7 +46,7 @@ fn force_removes_the_files_of_an_old_run_and_nothing_else() {
     assert_eq!(refused.status.code(), Some(2));
     assert_eq!(
         error(&refused),
-        "error: output folder out is not empty; choose another one with `--output DIR`, or write over the run in it with `--force`\n"
+        "error: output folder out is not empty; choose another one with `--output DIR`, go on with the run in it with `--resume out`, or write over that with `--force`\n"
     );
     let forced = run(&["--force", "--set", "stages[0].until.time=0.5 ms"]);
     assert_eq!(forced.status.code(), Some(0), "{}", error(&forced));

@@ -6,4 +6,6 @@ mod check;
 mod folder;
 mod place;
 mod reproduce;
+mod resume;
 mod run;
+mod start;

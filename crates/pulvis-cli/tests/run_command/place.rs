@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 /// 27 grains in a box that fly for less than a second of wall-clock time.
@@ -40,10 +40,15 @@ pub struct Place(pub PathBuf);
 impl Place {
     /// [`TINY`] with some texts replaced; each of them must be there.
     pub fn new(name: &str, changes: &[(&str, &str)]) -> Self {
+        Self::with(name, TINY, changes)
+    }
+
+    /// The same with another scenario.
+    pub fn with(name: &str, scenario: &str, changes: &[(&str, &str)]) -> Self {
         let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("run_command").join(name);
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).unwrap();
-        let text = changes.iter().fold(TINY.to_owned(), |text, (old, new)| {
+        let text = changes.iter().fold(scenario.to_owned(), |text, (old, new)| {
             assert!(text.contains(old), "{old}");
             text.replace(old, new)
         });
@@ -101,6 +106,11 @@ pub fn assert_files_are_complete(place: &Place, folder: &str) {
     }
     let again = place.pulvis(&["check", &format!("{folder}/run.toml")]);
     assert_eq!(again.status.code(), Some(0), "{}", error(&again));
+}
+
+/// A run whose words are kept until it is [`finish`]ed.
+pub fn spawn(mut command: Command) -> Child {
+    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
 /// A run that ends with the test, however that ends.

@@ -50,6 +50,7 @@ mod removal;
 mod resolved;
 
 mod stages;
+pub(crate) mod start;
 mod switches;
 mod time;
 mod until;
@@ -65,7 +66,7 @@ pub use contacts::Contact;
 pub use controls::WallControl;
 pub use limits::Limits;
 pub use materials::Material;
-pub use output::{Dimensionless, Interval, OutputPlan, Snapshots};
+pub use output::{CheckpointPlan, Dimensionless, Interval, OutputPlan, Snapshots};
 pub use particles::{ParticleGroup, VelocityPlan};
 pub use points::PointsError;
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};
@@ -75,6 +76,7 @@ pub use pulvis_boundary::{
 };
 pub use pulvis_packing::{Lattice, RadiusDistribution};
 pub use stages::Stage;
+pub use start::StartFrom;
 pub use time::TimeStep;
 pub use until::{Crossing, StopRules, StrainRule, StressRule};
 pub use walls::Wall;
@@ -92,6 +94,9 @@ pub struct Scenario {
     pub source: ScenarioSource,
     /// What the author calls it.
     pub title: Option<String>,
+    /// The state of another run that this one starts from; the particles then are those of that run, whatever their
+    /// groups say.
+    pub start_from: Option<StartFrom>,
     /// Seed of all random numbers.
     pub seed: u64,
     /// The periodic directions, if there are any; then at least one is.
@@ -183,6 +188,17 @@ impl Scenario {
                 InputError { replaced, ..mistake }
             }
         }
+    }
+
+    /// The scenario as it holds in one of its stages, without stages: contacts, background and time step are what earlier
+    /// stages and this one have made of them. `index` is that of a stage.
+    pub fn as_in_stage(&self, index: usize) -> Self {
+        let mut scenario = Self { stages: Vec::new(), ..self.clone() };
+        if let Some(stage) = self.stages.get(index) {
+            scenario.contacts.clone_from(&stage.contacts);
+            (scenario.background, scenario.time) = (stage.background, stage.time);
+        }
+        scenario
     }
 
     /// The index of a material.

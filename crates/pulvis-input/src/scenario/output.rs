@@ -20,6 +20,8 @@ pub struct OutputPlan {
     pub snapshots: Snapshots,
     /// Whether plots are drawn.
     pub plots: bool,
+    /// When the state is written, so that the run can be resumed; `None`: never.
+    pub checkpoints: Option<CheckpointPlan>,
     /// The scales of the dimensionless columns, if these are wanted.
     pub dimensionless: Option<Dimensionless>,
 }
@@ -31,6 +33,24 @@ pub enum Interval {
     Steps(u64),
     /// After this time [s].
     Time(f64),
+}
+
+/// When the state of a run is written. It always is when the run ends, whatever ends it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CheckpointPlan {
+    /// After this wall-clock time [s]; may be infinite.
+    pub wall_clock: f64,
+    /// Regularly in simulated time or steps.
+    pub every: Option<Interval>,
+    /// Whether the state at the end of each stage is kept, in a file of its own.
+    pub stage_ends: bool,
+}
+
+impl Default for CheckpointPlan {
+    /// Every ten minutes.
+    fn default() -> Self {
+        Self { wall_clock: 600.0, every: None, stage_ends: false }
+    }
 }
 
 /// When particles and contacts are written for ParaView.
@@ -72,6 +92,7 @@ pub(super) fn read_output(
         timeseries: Interval::Steps(DEFAULT_STEPS),
         snapshots: Snapshots::StageEnds,
         plots: true,
+        checkpoints: Some(CheckpointPlan::default()),
         dimensionless: None,
     };
     let Some(mut table) = root.optional_table("output")? else { return Ok(default) };
@@ -79,6 +100,7 @@ pub(super) fn read_output(
     let timeseries = table.value("timeseries").map(|value| read_interval(&value)).transpose();
     let snapshots = table.value("vtk").map(|value| read_snapshots(&value)).transpose();
     let plots = table.or("plots", Boolean, default.plots);
+    let checkpoints = table.value("checkpoints").map(|value| read_checkpoints(&value)).transpose();
     let dimensionless = table.optional_table("dimensionless").and_then(|scales| match scales {
         Some(scales) => read_dimensionless(scales, stages).map(Some),
         None => Ok(None),
@@ -89,6 +111,7 @@ pub(super) fn read_output(
         timeseries: timeseries?.unwrap_or(default.timeseries),
         snapshots: snapshots?.unwrap_or(default.snapshots),
         plots: plots?,
+        checkpoints: checkpoints?.unwrap_or(default.checkpoints),
         dimensionless: dimensionless?,
     })
 }
@@ -99,6 +122,39 @@ fn read_snapshots(value: &ValueReader<'_>) -> Result<Snapshots, Reported> {
     }
     let wanted = value.read(VtkShape)?;
     Ok(if wanted { Snapshots::StageEnds } else { Snapshots::Never })
+}
+
+fn read_checkpoints(value: &ValueReader<'_>) -> Result<Option<CheckpointPlan>, Reported> {
+    let default = CheckpointPlan::default();
+    if !value.is_table() {
+        return Ok(value.read(CheckpointShape)?.then_some(default));
+    }
+    let mut table = value.table()?;
+    let rule = QuantityRule::of(Dimension::TIME).above(0.0).or_infinite();
+    let wall_clock = table.or("wall_clock", rule, default.wall_clock);
+    let every = read_either(&mut table);
+    let stage_ends = table.or("stage_ends", Boolean, default.stage_ends);
+    table.finish();
+    Ok(Some(CheckpointPlan { wall_clock: wall_clock?, every: every?, stage_ends: stage_ends? }))
+}
+
+/// `true`, `false` or a table, as the message names it.
+struct CheckpointShape;
+
+impl crate::shape::Shape for CheckpointShape {
+    type Output = bool;
+
+    fn describe(&self) -> String {
+        "true (every 10 minutes), false or { wall_clock = \"10 min\", interval = \"1 ms\", stage_ends = true }"
+            .to_owned()
+    }
+
+    fn read(&self, value: &ValueReader<'_>) -> Result<bool, Reported> {
+        match value.raw() {
+            crate::value::Value::Boolean(wanted) => Ok(*wanted),
+            _ => Err(value.wrong_type(&self.describe())),
+        }
+    }
 }
 
 /// `true`, `false` or a table, as the message names it.
@@ -121,21 +177,28 @@ impl crate::shape::Shape for VtkShape {
 
 fn read_interval(value: &ValueReader<'_>) -> Result<Interval, Reported> {
     let mut table = value.table()?;
-    let steps = table.optional("steps", Integer::at_least(1));
-    let interval = table.optional("interval", QuantityRule::of(Dimension::TIME).above(0.0));
-    let result = steps.and_then(|steps| match (steps, interval?) {
-        (Some(steps), None) => Ok(Interval::Steps(steps.unsigned_abs())),
-        (None, Some(interval)) => Ok(Interval::Time(interval)),
-        (Some(_), Some(_)) => {
-            Err(table.refuse("interval", Problem::rule("given beside `steps`", "only one of them")))
-        }
-        (None, None) => {
+    let result = read_either(&mut table).and_then(|interval| {
+        interval.ok_or_else(|| {
             let expected = "{ steps = 100 } or { interval = \"1 us\" }";
-            Err(table.refuse("", Problem::rule("the table is empty", expected)))
-        }
+            table.refuse("", Problem::rule("the table is empty", expected))
+        })
     });
     table.finish();
     result
+}
+
+/// `steps` or `interval`, if one of them is given.
+fn read_either(table: &mut TableReader<'_>) -> Result<Option<Interval>, Reported> {
+    let steps = table.optional("steps", Integer::at_least(1));
+    let interval = table.optional("interval", QuantityRule::of(Dimension::TIME).above(0.0));
+    match (steps?, interval?) {
+        (Some(_), Some(_)) => {
+            Err(table.refuse("interval", Problem::rule("given beside `steps`", "only one of them")))
+        }
+        (steps, interval) => {
+            Ok(steps.map(|steps| Interval::Steps(steps.unsigned_abs())).or(interval.map(Interval::Time)))
+        }
+    }
 }
 
 fn read_dimensionless(

@@ -9,6 +9,7 @@ use super::output::read_output;
 use super::particles::{ParticleGroup, PlacedGroup, read_particles};
 use super::placement::check_placement;
 use super::stages::{PlannedStage, Stage, read_stages};
+use super::start::read_start;
 use super::switches::switched;
 use super::time::{TimeStep, read_time};
 use super::walls::{Walls, read_walls};
@@ -25,8 +26,9 @@ use pulvis_contact::bond::Form;
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
-const KEYS: [&str; 15] = [
+const KEYS: [&str; 16] = [
     "title",
+    "start_from",
     "seed",
     "gravity",
     "domain",
@@ -68,6 +70,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     }
     let title = root.optional("title", Text);
     let seed = root.or("seed", Integer::at_least(0), 1);
+    let start_from = read_start(&mut root, folder);
     let domain = read_domain(&mut root);
     let time = read_time(&mut root, TimeStep::default());
     let limits = read_limits(&mut root);
@@ -104,6 +107,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     let scenario = Scenario {
         source: ScenarioSource::default(),
         title: title?,
+        start_from: start_from?.map(|(start, _)| start),
         seed: seed?.unsigned_abs(),
         domain: domain?,
         materials,

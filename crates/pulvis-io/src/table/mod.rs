@@ -26,7 +26,7 @@ mod text;
 mod time_series;
 
 pub use number::significant;
-pub use time_series::TimeSeriesWriter;
+pub use time_series::{SeriesPosition, TimeSeriesWriter};
 
 use crate::{IoError, file};
 use std::io::{self, Write};

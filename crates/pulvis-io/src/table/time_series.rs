@@ -2,9 +2,11 @@
 
 use super::number::exact;
 use crate::IoError;
-use std::fs::File;
-use std::io::Write;
+use std::fs::{File, OpenOptions};
+use std::hash::Hasher;
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use twox_hash::XxHash3_64;
 
 /// Appends rows of numbers to a CSV file, in groups of complete lines.
 ///
@@ -26,7 +28,6 @@ use std::path::{Path, PathBuf};
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Debug)]
 pub struct TimeSeriesWriter {
     path: PathBuf,
     file: File,
@@ -34,6 +35,29 @@ pub struct TimeSeriesWriter {
     group: usize,
     waiting: usize,
     lines: csv::Writer<Vec<u8>>,
+    bytes: u64,
+    hash: XxHash3_64,
+}
+
+impl std::fmt::Debug for TimeSeriesWriter {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { path, bytes, waiting, .. } = self;
+        let mut description = formatter.debug_struct("TimeSeriesWriter");
+        description
+            .field("path", path)
+            .field("bytes", bytes)
+            .field("waiting", waiting)
+            .finish_non_exhaustive()
+    }
+}
+
+/// How far a time series has come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SeriesPosition {
+    /// Length of the file \[byte\].
+    pub bytes: u64,
+    /// XXH3 of these bytes.
+    pub hash: u64,
 }
 
 impl TimeSeriesWriter {
@@ -54,10 +78,77 @@ impl TimeSeriesWriter {
             group: Self::GROUP,
             waiting: 0,
             lines: csv::Writer::from_writer(Vec::new()),
+            bytes: 0,
+            hash: XxHash3_64::with_seed(0),
         };
         series.record(names.iter().map(AsRef::as_ref))?;
         series.flush()?;
         Ok(series)
+    }
+
+    /// Goes on with the file of an interrupted run: what stands behind `position` is cut off. Answers with the rows before
+    /// it, too.
+    ///
+    /// # Errors
+    /// The file cannot be read or written, or is another one up to that position.
+    pub fn resume<N: AsRef<str>>(
+        path: &Path,
+        columns: impl IntoIterator<Item = N>,
+        position: SeriesPosition,
+    ) -> Result<(Self, Vec<Vec<f64>>), IoError> {
+        let failed = |source| IoError::system("read", path, source);
+        let changed =
+            |problem: &str| IoError::Changed { path: path.to_path_buf(), problem: problem.to_owned() };
+        let mut file = OpenOptions::new().read(true).write(true).open(path).map_err(failed)?;
+        let mut text = Vec::new();
+        Read::by_ref(&mut file).take(position.bytes).read_to_end(&mut text).map_err(failed)?;
+        if text.len() as u64 != position.bytes {
+            return Err(changed("it has lost rows"));
+        }
+        if XxHash3_64::oneshot(&text) != position.hash {
+            return Err(changed("its rows are other ones"));
+        }
+        let names: Vec<N> = columns.into_iter().collect();
+        let mut reader = csv::Reader::from_reader(&text[..]);
+        let header = reader.headers().map_err(|_| changed("it is no table"))?;
+        if !header.iter().eq(names.iter().map(AsRef::as_ref)) {
+            return Err(changed("it has other columns"));
+        }
+        let row = |record: csv::StringRecord| -> Option<Vec<f64>> {
+            record.iter().map(|field| field.parse().ok()).collect()
+        };
+        let rows = reader.records().map(|record| record.ok().and_then(row)).collect::<Option<Vec<_>>>();
+        let rows = rows.ok_or_else(|| changed("it holds something else than numbers"))?;
+        let failed = |source| IoError::system("write", path, source);
+        file.set_len(position.bytes).map_err(failed)?;
+        file.seek(SeekFrom::End(0)).map_err(failed)?;
+        let mut hash = XxHash3_64::with_seed(0);
+        hash.write(&text);
+        let series = Self {
+            path: path.to_path_buf(),
+            file,
+            columns: names.len(),
+            group: Self::GROUP,
+            waiting: 0,
+            lines: csv::Writer::from_writer(Vec::new()),
+            bytes: position.bytes,
+            hash,
+        };
+        Ok((series, rows))
+    }
+
+    /// How far the file has come; all rows so far are handed to the system first.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn position(&mut self) -> Result<SeriesPosition, IoError> {
+        self.flush()?;
+        Ok(SeriesPosition { bytes: self.bytes, hash: self.hash.finish() })
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Sets after how many rows a group is handed to the system; one for rows that are minutes apart.
@@ -92,7 +183,10 @@ impl TimeSeriesWriter {
             let reason = std::io::Error::other(error.error().to_string());
             IoError::system("write", &self.path, reason)
         })?;
-        self.file.write_all(&bytes).map_err(|source| IoError::system("write", &self.path, source))
+        self.file.write_all(&bytes).map_err(|source| IoError::system("write", &self.path, source))?;
+        self.bytes += bytes.len() as u64;
+        self.hash.write(&bytes);
+        Ok(())
     }
 
     /// Writes what is left and closes the file.
@@ -136,6 +230,39 @@ mod tests {
         assert_eq!(text.lines().count(), 1 + 96, "header and three groups of 32");
         assert!(text.lines().all(|line| line.split(',').count() == 40));
         assert_eq!(text.lines().last().unwrap().split(',').next().unwrap().parse(), Ok(95.0 / 7.0));
+    }
+
+    #[test]
+    fn a_series_goes_on_where_it_was_and_what_came_later_or_in_halves_is_cut_off() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("series.csv");
+        let columns = ["t [s]", "e, total [J]"];
+        let row = |number: i32| [f64::from(number) / 7.0, if number == 3 { f64::NAN } else { -0.0 }];
+        let mut series = TimeSeriesWriter::create(&path, columns).unwrap();
+        (0..10).for_each(|number| series.row(&row(number)).unwrap());
+        let position = series.position().unwrap();
+        (10..20).for_each(|number| series.row(&row(number)).unwrap());
+        series.finish().unwrap();
+        let whole = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, format!("{whole}1.5,0.")).unwrap();
+        let (mut series, rows) = TimeSeriesWriter::resume(&path, columns, position).unwrap();
+        let bits = |row: &[f64]| row.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+        assert_eq!(rows.len(), 10);
+        assert!(rows.iter().zip(0..).all(|(found, number)| bits(found) == bits(&row(number))));
+        (10..20).for_each(|number| series.row(&row(number)).unwrap());
+        let end = series.position().unwrap();
+        series.finish().unwrap();
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), whole);
+        assert_eq!(end.hash, XxHash3_64::oneshot(whole.as_bytes()));
+        let refused = |text: &str, columns: [&str; 2]| {
+            std::fs::write(&path, text).unwrap();
+            let error = TimeSeriesWriter::resume(&path, columns, position).unwrap_err();
+            assert!(std::fs::read_to_string(&path).unwrap() == text, "a refused file stays as it is");
+            error.to_string()
+        };
+        assert!(refused(&whole[..90], columns).contains("it has lost rows"));
+        assert!(refused(&whole.replacen("0,-0", "0,-1", 1), columns).contains("its rows are other ones"));
+        assert!(refused(&whole, ["t [s]", "e"]).contains("it has other columns"));
     }
 
     #[test]

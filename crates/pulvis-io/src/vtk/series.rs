@@ -31,17 +31,25 @@ impl SeriesWriter {
         Ok(Self { folder, prefix, entries: Vec::new() })
     }
 
-    /// Goes on with the series of an interrupted run: frames before `time` \[s\] stay in the index, later ones are
-    /// written again. Without an index this is [`SeriesWriter::create`].
+    /// Goes on with the series of an interrupted run: its first `frames` frames stay, later ones leave the index and are
+    /// written again.
     ///
     /// # Errors
-    /// The folder cannot be created, or its index cannot be read.
-    pub fn resume(folder: impl Into<PathBuf>, prefix: &str, time: f64) -> Result<Self, IoError> {
+    /// The index cannot be read or written, or has fewer frames.
+    pub fn resume(folder: impl Into<PathBuf>, prefix: &str, frames: usize) -> Result<Self, IoError> {
         let mut series = Self::create(folder, prefix)?;
-        if series.index().exists() {
-            series.entries = read_series(&series.index())?;
-            series.entries.retain(|entry| entry.time < time);
+        if frames == 0 {
+            return Ok(series);
         }
+        let index = series.index();
+        series.entries = read_series(&index)?;
+        let found = series.entries.len();
+        if found < frames {
+            let problem = format!("it lists {found} frames, and the checkpoint knows of {frames}");
+            return Err(IoError::Changed { path: index, problem });
+        }
+        series.entries.truncate(frames);
+        write_series(&index, &series.entries)?;
         Ok(series)
     }
 
@@ -128,12 +136,15 @@ mod tests {
         for time in [0.0, 1.0, 2.0] {
             series.write(time, &NO_PARTICLES, &NO_CONTACTS).unwrap();
         }
-        let mut series = SeriesWriter::resume(folder.path(), "a&b", 1.5).unwrap();
+        let mut series = SeriesWriter::resume(folder.path(), "a&b", 2).unwrap();
         assert_eq!(series.frames(), 2);
+        assert_eq!(read_series(&series.index()).unwrap().len(), 2);
         let frame = series.write(1.5, &NO_PARTICLES, &NO_CONTACTS).unwrap();
         assert!(frame.ends_with("a&b_frame_0002.vtm"));
         let times: Vec<f64> = read_series(&series.index()).unwrap().iter().map(|entry| entry.time).collect();
         assert_eq!(times, [0.0, 1.0, 1.5]);
+        let missing = SeriesWriter::resume(folder.path(), "a&b", 4);
+        assert!(matches!(missing, Err(IoError::Changed { .. })), "{missing:?}");
     }
 
     #[test]

@@ -160,7 +160,14 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
         packed_memory: memory.map(|memory| memory.packed),
         available_memory: memory.and_then(|memory| memory.available),
         candidates: prepared.simulation.candidates(),
-        disk: DiskForecast { timeseries: 0.0, snapshots: 0.0, frame: 0.0, frames: 0.0, free: None },
+        disk: DiskForecast {
+            timeseries: 0.0,
+            snapshots: 0.0,
+            frame: 0.0,
+            frames: 0.0,
+            checkpoints: 0.0,
+            free: None,
+        },
         frame_seconds: 0.0,
         warnings: warnings(scenario, &prepared),
     };

@@ -18,6 +18,9 @@ const PARTICLE: f64 = 4.0 / 3.0 * 8.0 * (5.0 * 3.0 + 4.0 + 2.0);
 /// its cell.
 const CONTACT: f64 = 4.0 / 3.0 * 8.0 * (3.0 * 3.0 + 5.0 + 3.0);
 
+/// Bytes of a particle and its contacts in a checkpoint, compressed, as measured with friction.
+const STATE: f64 = 350.0;
+
 /// Contacts of a particle in a packing, half of the coordination.
 const CONTACTS: f64 = 3.5;
 
@@ -32,6 +35,8 @@ pub struct DiskForecast {
     pub frame: f64,
     /// Number of frames.
     pub frames: f64,
+    /// All checkpoints that are kept, and one that is being written [byte].
+    pub checkpoints: f64,
     /// Room that is left [byte]; `None` where the system does not say.
     pub free: Option<u64>,
 }
@@ -39,7 +44,7 @@ pub struct DiskForecast {
 impl DiskForecast {
     /// All files [byte].
     pub fn total(&self) -> f64 {
-        self.timeseries + self.snapshots
+        self.timeseries + self.snapshots + self.checkpoints
     }
 }
 
@@ -65,8 +70,16 @@ pub(super) fn disk_forecast(
         snapshots: frames * frame,
         frame,
         frames,
+        checkpoints: checkpoints(scenario) * particles as f64 * STATE,
         free: free_disk_space(folder),
     }
+}
+
+/// Checkpoints that are on the disk at the same time at most.
+fn checkpoints(scenario: &Scenario) -> f64 {
+    let Some(plan) = scenario.output.checkpoints else { return 0.0 };
+    // The two last ones, and the next.
+    3.0 + if plan.stage_ends { scenario.stages.len() as f64 } else { 0.0 }
 }
 
 impl StageForecast {

@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 
 use pulvis_core::{SetupError, StepError};
-use pulvis_input::InputError;
+use pulvis_input::{InputError, InputErrors};
 use pulvis_io::IoError;
 use thiserror::Error;
+
+use super::checkpoint::FindError;
 
 /// What is wrong with a scenario once its particles exist: bad input, found before anything is written.
 #[derive(Debug, Error)]
@@ -16,7 +18,8 @@ pub enum PrepareError {
     Scenario(Box<InputError>),
     /// The output folder holds a run.
     #[error(
-        "output folder {} is not empty; choose another one with `--output DIR`, or write over the run in it with `--force`",
+        "output folder {} is not empty; choose another one with `--output DIR`, go on with the run in it with `--resume {}`, or write over that with `--force`",
+        .folder.display(),
         .folder.display()
     )]
     RunInFolder {
@@ -59,6 +62,32 @@ pub enum PrepareError {
         /// The number of its process, where it can be read.
         process: Option<String>,
     },
+    /// A scenario or a file that it names is wrong.
+    #[error("{0}")]
+    Input(Box<InputErrors>),
+    /// There is nothing to go on with.
+    #[error("{} holds no run of Pulvis that could be resumed; name the output folder of a run", .folder.display())]
+    NothingToResume {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The run is complete.
+    #[error("the run in {} has ended: there is nothing to resume; to go on from its end, write a scenario with `start_from`", .folder.display())]
+    RunHasEnded {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// No checkpoint can be had.
+    #[error(transparent)]
+    Checkpoint(#[from] FindError),
+    /// A checkpoint is that of something else.
+    #[error("{} does not belong to this run: {problem}", .file.display())]
+    Misfit {
+        /// The checkpoint.
+        file: PathBuf,
+        /// What does not fit.
+        problem: String,
+    },
     /// The output folder cannot be used.
     #[error("output folder {}: {source}; choose another one with `--output DIR`", .folder.display())]
     Folder {
@@ -78,16 +107,19 @@ pub enum RunError {
     Prepare(#[from] PrepareError),
     /// What happened in a step cannot be right.
     #[error(
-        "stage `{stage}`, {source}\n  the run has stopped; the files in {} are complete up to there",
-        .folder.display()
+        "stage `{stage}`, {source}\n  the run has stopped; the files in {} are complete up to there{}",
+        .folder.display(),
+        .saved.map_or(String::new(), |step| format!("; its last checkpoint is of step {step}"))
     )]
     Step {
         /// The stage.
         stage: String,
         /// Why.
-        source: StepError,
+        source: Box<StepError>,
         /// The output folder.
         folder: PathBuf,
+        /// The step of the last checkpoint, if there is one.
+        saved: Option<u64>,
     },
     /// Output could not be written.
     #[error(transparent)]
@@ -114,6 +146,12 @@ impl RunError {
     /// Whether the input is to blame, and nothing was computed yet.
     pub fn is_bad_input(&self) -> bool {
         matches!(self, Self::Prepare(_))
+    }
+}
+
+impl From<InputErrors> for PrepareError {
+    fn from(errors: InputErrors) -> Self {
+        Self::Input(Box::new(errors))
     }
 }
 

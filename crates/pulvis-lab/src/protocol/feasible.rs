@@ -33,7 +33,7 @@ pub(super) fn check_feasible(
                 course.check_pressure(number, *place, pressure, particles, plan, &walls[*place].wall)?;
             }
         }
-        start_stage(&mut walls, stage);
+        start_stage(walls.iter_mut().map(|known| &mut known.wall), stage);
         let duration = exact_duration(&stage.until);
         if let Some(duration) = duration {
             course.check_crossing(number, &walls, duration)?;
@@ -60,8 +60,8 @@ impl KnownWall {
 }
 
 /// Controls at the start of a stage: a wall goes on as before, but a motion with an end has come to it.
-fn start_stage(walls: &mut [KnownWall], stage: &Stage) {
-    for (place, KnownWall { wall, .. }) in walls.iter_mut().enumerate() {
+pub(super) fn start_stage<'w>(walls: impl Iterator<Item = &'w mut Wall>, stage: &Stage) {
+    for (place, wall) in walls.enumerate() {
         let control = stage.controls.iter().find(|(wall, _)| *wall == place).map(|(_, control)| control);
         match control {
             Some(control) => {

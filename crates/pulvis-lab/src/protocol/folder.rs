@@ -9,6 +9,11 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use pulvis_io::IoError;
+use pulvis_io::checkpoint::write_text;
+use pulvis_io::name_of_temporary;
+
+use super::checkpoint::is_checkpoint;
 use super::error::{PrepareError, RunError};
 
 /// The record of the files of a run.
@@ -30,6 +35,8 @@ pub(super) struct OutputFolder {
     path: PathBuf,
     list: File,
     listed: HashSet<String>,
+    /// The same in the order of the list.
+    names: Vec<String>,
     /// Released by the system at the end of the process.
     _lock: Option<File>,
 }
@@ -45,7 +52,7 @@ impl OutputFolder {
         // Before anything is written into a folder that may be somebody else's.
         look(folder, force)?;
         fs::create_dir_all(folder).map_err(failed)?;
-        let lock = lock(folder, force)?;
+        let lock = lock(folder, if force { Lock::Needed } else { Lock::IfPossible })?;
         // Once more: another run may have come and gone before the lock was had.
         for name in look(folder, force)? {
             match fs::remove_file(folder.join(name)) {
@@ -56,7 +63,67 @@ impl OutputFolder {
         let mut list = File::create(folder.join(LIST)).map_err(failed)?;
         writeln!(list, "{HEADING}\n{LIST}").map_err(failed)?;
         let listed = HashSet::from([LIST.to_owned()]);
-        Ok(Self { path: folder.to_owned(), list, listed, _lock: lock })
+        Ok(Self { path: folder.to_owned(), list, listed, names: vec![LIST.to_owned()], _lock: lock })
+    }
+
+    /// Opens the folder of a run that has ended, however it ended, to go on with it.
+    ///
+    /// # Errors
+    /// It holds no run, or one that goes on, or cannot be written.
+    pub(super) fn reopen(folder: &Path) -> Result<Self, PrepareError> {
+        let failed = |source| PrepareError::Folder { folder: PathBuf::from(folder), source };
+        let is_run = || files_of_run(folder).is_some() && folder.join(RECORD).is_file();
+        if !is_run() {
+            return Err(PrepareError::NothingToResume { folder: PathBuf::from(folder) });
+        }
+        let lock = lock(folder, Lock::OrDeadProcess)?;
+        let names = files_of_run(folder).unwrap_or_default();
+        let list = OpenOptions::new().append(true).open(folder.join(LIST)).map_err(failed)?;
+        let listed = names.iter().cloned().collect();
+        Ok(Self { path: folder.to_owned(), list, listed, names, _lock: lock })
+    }
+
+    /// The files of the run, in the order of its list.
+    pub(super) fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Whether the list begins with these files.
+    ///
+    /// # Errors
+    /// It does not.
+    pub(super) fn check_list(&self, files: &[String]) -> Result<(), RunError> {
+        if self.names.starts_with(files) {
+            return Ok(());
+        }
+        let problem = "it does not list the files of the checkpoint".to_owned();
+        Err(IoError::Changed { path: self.path.join(LIST), problem }.into())
+    }
+
+    /// Removes all files of the run but for `kept`, which are the first ones of its list, and what was being written when
+    /// it ended.
+    ///
+    /// # Errors
+    /// The list does not begin with them, or a file cannot be removed.
+    pub(super) fn cut_back(&mut self, kept: &[String]) -> Result<(), RunError> {
+        self.check_list(kept)?;
+        let path = self.path.join(LIST);
+        let later = self.names.split_off(kept.len());
+        let of_killed = temporaries(&self.path, |name| self.listed.contains(name));
+        for name in later.into_iter().chain(of_killed) {
+            let file = self.path.join(name);
+            match fs::remove_file(&file) {
+                Err(source) if source.kind() != ErrorKind::NotFound => {
+                    return Err(RunError::File { file, source });
+                }
+                _ => {}
+            }
+        }
+        self.listed = self.names.iter().cloned().collect();
+        write_text(&path, &format!("{HEADING}\n{}\n", self.names.join("\n")))?;
+        let reopened = OpenOptions::new().append(true).open(&path);
+        self.list = reopened.map_err(|source| RunError::File { file: path, source })?;
+        Ok(())
     }
 
     /// The folder.
@@ -77,8 +144,10 @@ impl OutputFolder {
         if path.symlink_metadata().is_ok() {
             return Err(failed(ErrorKind::AlreadyExists.into()));
         }
-        writeln!(self.list, "{name}").map_err(failed)?;
+        // One call, so that a list is never cut off within a line.
+        self.list.write_all(format!("{name}\n").as_bytes()).map_err(failed)?;
         self.listed.insert(name.to_owned());
+        self.names.push(name.to_owned());
         Ok(path)
     }
 }
@@ -121,7 +190,10 @@ pub(super) fn look(folder: &Path, force: bool) -> Result<Vec<String>, PrepareErr
     let in_the_way = |name: &&String| !old.contains(name) && may_be_written(name);
     match names.iter().find(in_the_way) {
         Some(name) => Err(PrepareError::FileInTheWay { file: folder.join(name) }),
-        None => Ok(old),
+        None => {
+            let of_killed = temporaries(&folder, |name| old.iter().any(|old| old == name));
+            Ok(old.into_iter().chain(of_killed).collect())
+        }
     }
 }
 
@@ -140,6 +212,13 @@ fn files_of_run(folder: &Path) -> Option<Vec<String>> {
     Some([LIST].into_iter().chain(others).map(str::to_owned).collect())
 }
 
+/// The files that a killed process was writing, in the place of those that `is_own`.
+fn temporaries(folder: &Path, is_own: impl Fn(&str) -> bool) -> Vec<String> {
+    let entries = fs::read_dir(folder).into_iter().flatten();
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    names.filter(|name| name_of_temporary(name).is_some_and(&is_own)).collect()
+}
+
 /// Whether a run may write a file of this name.
 fn may_be_written(name: &str) -> bool {
     let numbered = || -> Option<bool> {
@@ -150,12 +229,28 @@ fn may_be_written(name: &str) -> bool {
     };
     let pictures = ["energies.png", "stress.png", "force_displacement.png", "particles.png"];
     let tables = [RECORD, LIST, "timeseries.csv", "series.pvd"];
-    pictures.contains(&name) || tables.contains(&name) || numbered() == Some(true)
+    is_checkpoint(name) || pictures.contains(&name) || tables.contains(&name) || numbered() == Some(true)
 }
 
-/// Locks a folder for this process. `None` on a file system without locks, where a fresh folder may be
-/// used all the same.
-fn lock(folder: &Path, force: bool) -> Result<Option<File>, PrepareError> {
+/// What is asked of a lock where the file system knows none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Lock {
+    /// A fresh folder may be used all the same.
+    IfPossible,
+    /// The process that has locked it before must have ended, as far as this machine knows.
+    OrDeadProcess,
+    /// Files will be removed.
+    Needed,
+}
+
+/// Whether a process of this machine has the number; `false` where nobody can tell.
+fn is_alive(process: &str) -> bool {
+    let other = process.parse().is_ok_and(|number: u32| number != std::process::id());
+    other && Path::new("/proc").join(process).exists()
+}
+
+/// Locks a folder for this process. `None` on a file system without locks.
+fn lock(folder: &Path, wanted: Lock) -> Result<Option<File>, PrepareError> {
     let failed = |source| PrepareError::Folder { folder: PathBuf::from(folder), source };
     let path = folder.join(LOCK);
     let mut file = OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
@@ -169,8 +264,16 @@ fn lock(folder: &Path, force: bool) -> Result<Option<File>, PrepareError> {
             let process = fs::read_to_string(&path).ok().filter(|text| !text.is_empty());
             Err(PrepareError::RunGoesOn { folder: PathBuf::from(folder), process })
         }
-        Err(TryLockError::Error(source)) if force => Err(failed(source)),
-        Err(TryLockError::Error(_)) => Ok(None),
+        Err(TryLockError::Error(source)) if wanted == Lock::Needed => Err(failed(source)),
+        Err(TryLockError::Error(_)) => {
+            let process = fs::read_to_string(&path).ok().filter(|process| is_alive(process));
+            match process {
+                Some(process) if wanted == Lock::OrDeadProcess => {
+                    Err(PrepareError::RunGoesOn { folder: PathBuf::from(folder), process: Some(process) })
+                }
+                _ => Ok(None),
+            }
+        }
     }
 }
 

@@ -70,6 +70,21 @@ impl Measure {
         }
     }
 
+    /// The lengths L0 of the dimensionless displacement, if there is one.
+    pub(super) fn reference(&self) -> Option<[Option<f64>; 3]> {
+        // What a measurement depends on beside scenario and simulation is part of a checkpoint.
+        let Self { columns: _, bonds: _, scaled } = self;
+        let Scaled { length: _, stiffness: _, reference } = scaled.as_ref()?;
+        Some(*reference)
+    }
+
+    /// Sets those of an interrupted run.
+    pub(super) fn resume(&mut self, lengths: Option<[Option<f64>; 3]>) {
+        if let Some((scaled, lengths)) = self.scaled.as_mut().zip(lengths) {
+            scaled.reference = lengths;
+        }
+    }
+
     /// The names of the columns. Energies [J], stresses [Pa], lengths [m], forces [N], compression
     /// positive; `position_*` is the place of a plane along its normal. Of a cylinder: the components of the force on
     /// it, and the torque about its axis [N m].

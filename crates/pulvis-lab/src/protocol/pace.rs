@@ -15,8 +15,25 @@ pub(super) struct Due {
 }
 
 impl Due {
-    pub(super) fn new(interval: Interval) -> Self {
-        Self { interval, count: 0 }
+    /// Of an interrupted run in which it has been time so often.
+    pub(super) fn resume(interval: Interval, count: u64) -> Self {
+        Self { interval, count }
+    }
+
+    /// Of a run that starts from another one, at the same multiples of the interval.
+    pub(super) fn from_now(interval: Interval, simulation: &Simulation) -> Self {
+        let count = match interval {
+            _ if simulation.steps() == 0 => 0,
+            Interval::Steps(steps) => simulation.steps() / steps,
+            Interval::Time(time) => ((simulation.time() + 0.5 * simulation.time_step()) / time) as u64,
+        };
+        Self { interval, count }
+    }
+
+    /// How often it has been time.
+    pub(super) fn count(&self) -> u64 {
+        let Self { interval: _, count } = self;
+        *count
     }
 
     /// Steps before which it is certainly not time.

@@ -9,11 +9,13 @@ use pulvis_input::scenario::{Contact, Scenario, Side, TimeStep, Wall as WallPlan
 
 use pulvis_input::Problem;
 
+use super::checkpoint::Ancestor;
 use super::error::PrepareError;
 use super::feasible::check_feasible;
 use super::memory::refuse_too_many;
 use super::particles::{columns, generate};
 use super::refusal::refuse_setup;
+use super::start::branch;
 
 /// A simulation before its first step, and what its stages will need.
 #[derive(Clone, Debug)]
@@ -24,6 +26,19 @@ pub struct Prepared {
     pub stages: Vec<StagePlan>,
     /// The particles as they start, by id.
     pub particles: Vec<Particle>,
+    /// What was before.
+    pub(super) origin: Origin,
+}
+
+/// Where a simulation comes from.
+#[derive(Clone, Debug)]
+pub(super) struct Origin {
+    /// The runs before, the oldest first.
+    pub(super) ancestors: Vec<Ancestor>,
+    /// The contact models that the simulation has now.
+    pub(super) interactions: Interactions,
+    /// Whether the stage before the first one has ended.
+    pub(super) stage_ended: bool,
 }
 
 /// What holds during a stage.
@@ -45,12 +60,15 @@ pub struct StagePlan {
 
 /// Builds the simulation of a scenario and checks what only its particles can tell.
 pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
+    if let Some(start) = &scenario.start_from {
+        return branch(scenario, start);
+    }
     // Before anything is allocated for them.
     refuse_too_many(scenario)?;
     check_materials(scenario)?;
     let domain = scenario.domain.unwrap_or(Domain::unbounded());
     let particles = generate(scenario, &domain)?;
-    let walls: Vec<Wall> = scenario.walls.iter().map(|plan| wall(scenario, plan)).collect();
+    let walls = drawn_walls(scenario);
     check_start(scenario, &particles, &walls)?;
     let stages = stages(scenario, &particles, &walls)?;
     let first = &stages[0];
@@ -68,7 +86,9 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
     simulation.set_limits(Limits { energy_error: scenario.limits.energy_error, ..Limits::default() });
     check_overlaps(scenario, &simulation)?;
     check_feasible(scenario, &particles, &walls, &stages)?;
-    Ok(Prepared { simulation, stages, particles })
+    let origin =
+        Origin { ancestors: Vec::new(), interactions: first.interactions.clone(), stage_ended: true };
+    Ok(Prepared { simulation, stages, particles, origin })
 }
 
 /// Refuses more materials than the engine can number; every index fits from here on.
@@ -81,7 +101,7 @@ fn check_materials(scenario: &Scenario) -> Result<(), PrepareError> {
     Err(scenario.mistake(&["materials"], problem, "remove materials that nothing is made of").into())
 }
 
-fn stages(
+pub(super) fn stages(
     scenario: &Scenario,
     particles: &[Particle],
     walls: &[Wall],
@@ -175,6 +195,11 @@ pub fn describe_motion(scenario: &Scenario, shortest: &ShortestMotion) -> String
         }
         _ => "another motion".to_owned(),
     }
+}
+
+/// All walls as the scenario draws them, at rest.
+pub(super) fn drawn_walls(scenario: &Scenario) -> Vec<Wall> {
+    scenario.walls.iter().map(|plan| wall(scenario, plan)).collect()
 }
 
 fn wall(scenario: &Scenario, plan: &WallPlan) -> Wall {

@@ -19,6 +19,17 @@ impl Snapshots {
         Ok(Self { series: SeriesWriter::create(folder, "")?, last_step: None })
     }
 
+    /// Goes on with the frames of an interrupted run, of which the last was of `last_step`.
+    pub(super) fn resume(folder: &Path, frames: u64, last_step: Option<u64>) -> Result<Self, IoError> {
+        Ok(Self { series: SeriesWriter::resume(folder, "", frames as usize)?, last_step })
+    }
+
+    /// Number of frames, and the step of the last one.
+    pub(super) fn position(&self) -> (u64, Option<u64>) {
+        let Self { series, last_step } = self;
+        (series.frames() as u64, *last_step)
+    }
+
     /// Writes the present state, unless it has just been written.
     pub(super) fn write(
         &mut self,

@@ -3,6 +3,7 @@
 use pulvis_core::Simulation;
 use pulvis_input::scenario::{Crossing, Scenario, Stage, StopRules};
 
+use super::checkpoint::WatchRecord;
 use super::setup::{box_walls, extent};
 use pulvis_core::walls::Extent;
 
@@ -34,6 +35,20 @@ pub enum Ending {
 }
 
 impl Ending {
+    /// All endings, in the order of their numbers in checkpoints.
+    const ALL: [Self; 6] =
+        [Self::Time, Self::AtRest, Self::Strain, Self::Stress, Self::Cycles, Self::Interrupted];
+
+    /// Its number in checkpoints.
+    pub(super) fn number(self) -> u8 {
+        Self::ALL.iter().position(|ending| *ending == self).unwrap_or(0) as u8
+    }
+
+    /// The ending of a number.
+    pub(super) fn from_number(number: u8) -> Option<Self> {
+        Self::ALL.get(usize::from(number)).copied()
+    }
+
     /// The ending in words.
     pub const fn text(self) -> &'static str {
         match self {
@@ -70,6 +85,25 @@ impl<'a> StageWatch<'a> {
             calm_looks: 0,
             last_stress: None,
         }
+    }
+
+    /// Goes on watching over a stage of an interrupted run.
+    pub(super) fn resume(scenario: &'a Scenario, stage: &'a Stage, record: &WatchRecord) -> Self {
+        let &WatchRecord { start_step, start_time, start_lengths, calm_looks, last_stress } = record;
+        let rules = &stage.until;
+        Self { scenario, rules, start_step, start_time, start_lengths, calm_looks, last_stress }
+    }
+
+    /// What the rules have seen so far.
+    pub(super) fn record(&self) -> WatchRecord {
+        let &Self { scenario: _, rules: _, start_step, start_time, start_lengths, calm_looks, last_stress } =
+            self;
+        WatchRecord { start_step, start_time, start_lengths, calm_looks, last_stress }
+    }
+
+    /// Extent along each axis at the start of the stage [m].
+    pub(super) fn start_lengths(&self) -> [Option<f64>; 3] {
+        self.start_lengths
     }
 
     /// How far the stage has come, from 0 to 1, where its duration is known.

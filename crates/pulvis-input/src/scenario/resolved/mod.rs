@@ -4,7 +4,8 @@ mod bodies;
 mod stages;
 pub(super) mod writer;
 
-use super::output::{Interval, OutputPlan, Snapshots};
+use super::output::{CheckpointPlan, Interval, OutputPlan, Snapshots};
+use super::start::StartFrom;
 use super::time::TimeStep;
 use super::{Axis, Contact, Material, NamedLaw, Scenario, Stage};
 use pulvis_contact::catalogue::mixing::MATERIAL_PROPERTIES;
@@ -28,6 +29,9 @@ impl Scenario {
         writer.comment("in SI, defaults written out; `pulvis run` of this file repeats the run");
         if let Some(title) = &self.title {
             writer.key("title", text(title));
+        }
+        if let Some(start) = &self.start_from {
+            writer.key("start_from", start_from(start));
         }
         writer.key("seed", self.seed.to_string());
         writer.key("gravity", gravity(self.background.gravity));
@@ -85,6 +89,14 @@ impl Scenario {
     }
 }
 
+fn start_from(start: &StartFrom) -> String {
+    let path = text(&start.path.to_string_lossy());
+    match &start.stage {
+        Some(stage) => format!("{{ run = {path}, stage = {} }}", text(stage)),
+        None => path,
+    }
+}
+
 fn gravity(value: Vector3) -> String {
     vector(value, Dimension::ACCELERATION)
 }
@@ -131,6 +143,17 @@ fn write_time(writer: &mut Writer, time: TimeStep) {
     }
 }
 
+fn checkpoints(plan: Option<CheckpointPlan>) -> String {
+    let Some(CheckpointPlan { wall_clock, every, stage_ends }) = plan else { return "false".to_owned() };
+    let mut keys = vec![format!("wall_clock = {}", quantity(wall_clock, Dimension::TIME))];
+    keys.extend(every.map(|interval| match interval {
+        Interval::Steps(steps) => format!("steps = {steps}"),
+        Interval::Time(time) => format!("interval = {}", quantity(time, Dimension::TIME)),
+    }));
+    keys.push(format!("stage_ends = {stage_ends}"));
+    format!("{{ {} }}", keys.join(", "))
+}
+
 fn write_output(writer: &mut Writer, output: &OutputPlan, stages: &[Stage]) {
     let interval = |interval: Interval| match interval {
         Interval::Steps(steps) => format!("{{ steps = {steps} }}"),
@@ -148,6 +171,7 @@ fn write_output(writer: &mut Writer, output: &OutputPlan, stages: &[Stage]) {
         },
     );
     writer.key("plots", output.plots.to_string());
+    writer.key("checkpoints", checkpoints(output.checkpoints));
     if let Some(scales) = output.dimensionless {
         writer.table("output.dimensionless");
         writer.key("length", quantity(scales.length, Dimension::LENGTH));

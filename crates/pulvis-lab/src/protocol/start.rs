@@ -1,0 +1,232 @@
+//! Simulations that start from a checkpoint: of the same run, or of another one.
+
+use pulvis_core::walls::Wall;
+use pulvis_core::{Interactions, Limits, Particle, Simulation, State};
+use pulvis_input::scenario::{Scenario, Stage, StartFrom, WallControl};
+use pulvis_input::{Document, Problem, Replacement};
+use std::path::Path;
+
+use super::checkpoint::{Ancestor, Checkpoint, Found, RunRecord, of_run};
+use super::error::PrepareError;
+use super::feasible::{check_feasible, start_stage};
+use super::run::StageResult;
+use super::setup::{Origin, Prepared, StagePlan, drawn_walls, interactions, stages};
+use super::stage::Ending;
+
+/// An interrupted run that can go on.
+pub(super) struct Resumed {
+    pub(super) simulation: Simulation,
+    pub(super) plans: Vec<StagePlan>,
+    pub(super) ancestors: Vec<Ancestor>,
+    pub(super) record: RunRecord,
+    pub(super) results: Vec<StageResult>,
+}
+
+/// The simulation of a checkpoint of this very scenario.
+pub(super) fn resumed(scenario: &Scenario, found: Found) -> Result<Resumed, PrepareError> {
+    let Found { path, checkpoint } = found;
+    let misfit = |problem: String| PrepareError::Misfit { file: path.clone(), problem };
+    let (record, ancestors) = (checkpoint.run.clone(), checkpoint.ancestors.clone());
+    let stage = record.stage();
+    if record.time_steps.len() != scenario.stages.len() || stage >= scenario.stages.len() {
+        return Err(misfit("it has other stages".to_owned()));
+    }
+    let mut walls = walls_after(scenario, &ancestors)?;
+    let plans = resumed_plans(scenario, &record.time_steps, walls.clone());
+    let ended = ancestors.last().is_none_or(|ancestor| ancestor.stage_ended);
+    enter_stages(&mut walls, &scenario.stages[..=stage], ended);
+    let state: State = checkpoint.into_state().map_err(|problem| misfit(problem.to_owned()))?;
+    let results = record.results.iter().zip(&scenario.stages).map(|(result, stage)| {
+        let ending = Ending::from_number(result.ending);
+        ending.map(|ending| StageResult {
+            name: stage.name.clone(),
+            ending,
+            time: result.time,
+            steps: result.steps,
+        })
+    });
+    let results =
+        results.collect::<Option<_>>().ok_or_else(|| misfit("it knows another end of a stage".to_owned()))?;
+    let models = plans[stage].interactions.clone();
+    let mut simulation =
+        Simulation::import_state(models, walls, &state).map_err(|error| misfit(error.to_string()))?;
+    set_limits(&mut simulation, scenario);
+    Ok(Resumed { simulation, plans, ancestors, record, results })
+}
+
+fn set_limits(simulation: &mut Simulation, scenario: &Scenario) {
+    simulation.set_limits(Limits { energy_error: scenario.limits.energy_error, ..Limits::default() });
+}
+
+/// What stages switch to, with the time steps that they had before the interruption.
+fn resumed_plans(scenario: &Scenario, time_steps: &[f64], mut walls: Vec<Wall>) -> Vec<StagePlan> {
+    let plan = |(stage, &time_step): (&Stage, &f64)| {
+        start_stage(walls.iter_mut(), stage);
+        StagePlan {
+            interactions: interactions(scenario, &stage.contacts),
+            background: stage.background,
+            time_step,
+            shortest: None,
+            walls_present: walls.iter().map(|wall| wall.present).collect(),
+            wall_changes: stage.controls.clone(),
+        }
+    };
+    scenario.stages.iter().zip(time_steps).map(plan).collect()
+}
+
+/// The walls of a scenario as its ancestors have left them.
+fn walls_after(scenario: &Scenario, ancestors: &[Ancestor]) -> Result<Vec<Wall>, PrepareError> {
+    let mut walls = drawn_walls(scenario);
+    let mut ended = true;
+    for Ancestor { scenario, stage, stage_ended } in ancestors {
+        let ancestor = Scenario::from_str("the scenario of an earlier run", scenario)?;
+        let begun = &ancestor.stages[..(*stage as usize + 1).min(ancestor.stages.len())];
+        enter_stages(&mut walls, begun, ended);
+        ended = *stage_ended;
+    }
+    Ok(walls)
+}
+
+/// Walls go through the starts of stages. Where the stage before the first one goes on, so do motions that have an end.
+fn enter_stages(walls: &mut [Wall], stages: &[Stage], mut ended: bool) {
+    for stage in stages {
+        let before: Vec<Wall> = walls.to_vec();
+        start_stage(walls.iter_mut(), stage);
+        let is_controlled = |place: usize| stage.controls.iter().any(|(wall, _)| *wall == place);
+        for (place, wall) in
+            walls.iter_mut().enumerate().filter(|(place, _)| !ended && !is_controlled(*place))
+        {
+            wall.motion = before[place].motion;
+        }
+        ended = true;
+    }
+}
+
+/// Reads a scenario file, with values replaced as `--set` does it. What a scenario with `start_from` does not say, it has from
+/// the run that it starts from, as it holds there in the stage of the checkpoint.
+///
+/// # Errors
+/// All mistakes of the file, or its checkpoint cannot be used.
+pub fn load_scenario(path: &Path, set: &[(String, Replacement)]) -> Result<Scenario, PrepareError> {
+    let mut document = Document::load(path)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    if let Some((start, place)) = document.start_from(folder)? {
+        let refused = |error| document.error_at(&place, Problem::Refused(Box::new(error)));
+        let Found { checkpoint, .. } = of_run(&start).map_err(refused)?;
+        let (parent, stage) = parent(&checkpoint)?;
+        let base = Document::from_str("the run", &parent.as_in_stage(stage).to_resolved_toml(""))?;
+        document = document.with_missing_from(&base, &["title", "start_from", "stages", "output"], &place);
+    }
+    Ok(Scenario::from_document(&document.with_overrides(set)?, Some(path))?)
+}
+
+/// The scenario of a checkpoint, and the stage in it.
+fn parent(checkpoint: &Checkpoint) -> Result<(Scenario, usize), PrepareError> {
+    let scenario = Scenario::from_str("the scenario of the checkpoint", &checkpoint.scenario)?;
+    let last = scenario.stages.len() - 1;
+    Ok((scenario, checkpoint.run.stage().min(last)))
+}
+
+/// Builds the simulation of a scenario that starts from a checkpoint.
+pub(super) fn branch(scenario: &Scenario, start: &StartFrom) -> Result<Prepared, PrepareError> {
+    let refused =
+        |problem: Problem, help: &str| PrepareError::from(scenario.mistake(&["start_from"], problem, help));
+    let found = of_run(start)
+        .map_err(|error| refused(Problem::Refused(Box::new(error)), "name another checkpoint"))?;
+    let checkpoint = found.checkpoint;
+    let (parent, stage) = parent(&checkpoint)?;
+    same_system(scenario, &parent)?;
+    let mut ancestors = checkpoint.ancestors.clone();
+    let stage_ended = checkpoint.run.watch.is_none();
+    let mut walls = walls_after(scenario, &ancestors)?;
+    let ended = ancestors.last().is_none_or(|ancestor| ancestor.stage_ended);
+    enter_stages(&mut walls, &parent.stages[..=stage], ended);
+    ancestors.push(Ancestor { scenario: checkpoint.scenario.clone(), stage: stage as u32, stage_ended });
+    let models: Interactions = interactions(&parent, &parent.stages[stage].contacts);
+    let unfit = |problem: String| {
+        refused(Problem::rule(problem, "a checkpoint of the same system"), "name another checkpoint")
+    };
+    let state: State = checkpoint.into_state().map_err(|problem| unfit(problem.to_owned()))?;
+    let particles = particles_of(&state);
+    check_controls(scenario, &walls)?;
+    let stages = stages(scenario, &particles, &walls)?;
+    let mut simulation =
+        Simulation::import_state(models.clone(), walls, &state).map_err(|error| unfit(error.to_string()))?;
+    simulation.set_temperature(scenario.temperature.clone());
+    set_limits(&mut simulation, scenario);
+    check_feasible(scenario, &particles, simulation.walls(), &stages)?;
+    let origin = Origin { ancestors, interactions: models, stage_ended };
+    Ok(Prepared { simulation, stages, particles, origin })
+}
+
+/// Refuses scenarios of other walls, materials or directions that repeat: the state means nothing there.
+fn same_system(scenario: &Scenario, parent: &Scenario) -> Result<(), PrepareError> {
+    let names = |scenario: &Scenario| {
+        scenario.materials.iter().map(|material| material.name.clone()).collect::<Vec<_>>().join(", ")
+    };
+    let walls = |scenario: &Scenario| {
+        let walls = scenario
+            .walls
+            .iter()
+            .map(|wall| format!("{} of {}", wall.name, scenario.materials[wall.material].name));
+        walls.collect::<Vec<_>>().join(", ")
+    };
+    let differs = |path: &str, found: String, expected: String| {
+        let problem = Problem::rule(found, expected);
+        let help = "leave the table out: what is not said is as in the run that `start_from` names";
+        Err(scenario.mistake(&[path, "start_from"], problem, help).into())
+    };
+    if names(scenario) != names(parent) {
+        return differs("materials", names(scenario), format!("those of the run: {}", names(parent)));
+    }
+    if walls(scenario) != walls(parent) {
+        return differs(
+            "box",
+            format!("the walls {}", walls(scenario)),
+            format!("those of the run: {}", walls(parent)),
+        );
+    }
+    let shapes = |scenario: &Scenario| {
+        scenario.walls.iter().map(|wall| (wall.shape, wall.area, wall.face)).collect::<Vec<_>>()
+    };
+    if shapes(scenario) != shapes(parent) || scenario.enclosure != parent.enclosure {
+        let found = "the walls have other shapes, sizes or areas".to_owned();
+        return differs("box", found, "those of the run".to_owned());
+    }
+    if scenario.domain != parent.domain {
+        let found = "the domain is another one".to_owned();
+        return differs("domain", found, "that of the run".to_owned());
+    }
+    Ok(())
+}
+
+/// Refuses stages that control a wall which the run before has removed.
+fn check_controls(scenario: &Scenario, walls: &[Wall]) -> Result<(), PrepareError> {
+    for (number, stage) in scenario.stages.iter().enumerate() {
+        let gone = |(place, _): &&(usize, WallControl)| !walls[*place].present;
+        if let Some((place, _)) = stage.controls.iter().find(gone) {
+            let name = &walls[*place].name;
+            let found = format!("the wall {name} was removed in the run before");
+            let problem = Problem::rule(found, "a wall that is still there");
+            let path = format!("stages[{number}].walls.{name}");
+            return Err(scenario.mistake(&[&path], problem, "leave it out").into());
+        }
+    }
+    Ok(())
+}
+
+/// The particles of a state, by id.
+fn particles_of(state: &State) -> Vec<Particle> {
+    let columns = &state.particles;
+    let mut rows: Vec<usize> = (0..columns.id.len()).collect();
+    rows.sort_unstable_by_key(|&row| columns.id[row]);
+    let particle = |row: usize| Particle {
+        material: columns.material[row],
+        radius: columns.radius[row],
+        mass: columns.mass[row],
+        position: columns.position[row].into(),
+        velocity: columns.velocity[row].into(),
+        angular_velocity: columns.angular_velocity[row].into(),
+    };
+    rows.into_iter().map(particle).collect()
+}

@@ -1,0 +1,335 @@
+//! A run under way: its stages and what it writes.
+
+mod checkpoints;
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use pulvis_core::walls::WallMotion;
+use pulvis_core::{Interactions, Simulation, StepError};
+use pulvis_input::scenario::{Scenario, Snapshots as SnapshotPlan, WallControl};
+use pulvis_io::table::TimeSeriesWriter;
+use pulvis_math::max_or_nan;
+
+use super::checkpoint::{Ancestor, Keeper, LATEST, PREVIOUS, stage_file};
+use super::error::RunError;
+use super::folder::OutputFolder;
+use super::measure::Measure;
+use super::pace::{Due, PACE, Pace};
+use super::report::{self, Series};
+use super::run::{Progress, RunOptions, RunSummary, StageResult, Watch, set_machine};
+use super::setup::{Prepared, StagePlan};
+use super::snapshots::Snapshots;
+use super::stage::{Ending, StageWatch};
+
+const TIME_SERIES: &str = "timeseries.csv";
+
+/// A run under way.
+pub(super) struct Run<'a> {
+    scenario: &'a Scenario,
+    /// The same as text.
+    resolved: String,
+    /// The runs that this one has branched from.
+    ancestors: Vec<Ancestor>,
+    simulation: Simulation,
+    /// The contact models that the simulation has now.
+    interactions: Interactions,
+    plans: Vec<StagePlan>,
+    /// The stages that have ended.
+    results: Vec<StageResult>,
+    /// The stage that a resumed run is in.
+    watch: Option<StageWatch<'a>>,
+    /// Whether motions of walls with an end have come to it when the next stage begins.
+    walls_arrive: bool,
+    measure: Measure,
+    writer: TimeSeriesWriter,
+    rows: Vec<Vec<f64>>,
+    snapshots: Option<Snapshots>,
+    output: OutputFolder,
+    /// How many of the files of the run are on the disk for certain.
+    synced: usize,
+    began: Instant,
+    steps_before: u64,
+    rows_due: Due,
+    frames_due: Option<Due>,
+    checkpoints_due: Option<Due>,
+    keeper: Keeper,
+}
+
+impl<'a> Run<'a> {
+    /// At the start of the first stage.
+    pub(super) fn begin(
+        scenario: &'a Scenario,
+        resolved: String,
+        prepared: Prepared,
+        mut output: OutputFolder,
+        version: &str,
+    ) -> Result<Self, RunError> {
+        let Prepared { simulation, stages: plans, particles: _, origin } = prepared;
+        let measure = Measure::new(scenario, &simulation);
+        let writer = TimeSeriesWriter::create(&output.file(TIME_SERIES)?, measure.columns())?;
+        let keeper = Keeper::new(scenario, output.path(), version);
+        if keeper.plan().is_some() {
+            output.file(LATEST)?;
+            output.file(PREVIOUS)?;
+        }
+        let due = |interval| Due::from_now(interval, &simulation);
+        let mut run = Self {
+            scenario,
+            resolved,
+            ancestors: origin.ancestors,
+            interactions: origin.interactions,
+            walls_arrive: origin.stage_ended,
+            plans,
+            results: Vec::new(),
+            watch: None,
+            measure,
+            writer,
+            rows: Vec::new(),
+            snapshots: match scenario.output.snapshots {
+                SnapshotPlan::Never => None,
+                SnapshotPlan::StageEnds | SnapshotPlan::Every(_) => Some(Snapshots::create(output.path())?),
+            },
+            output,
+            synced: 0,
+            began: Instant::now(),
+            steps_before: simulation.steps(),
+            rows_due: due(scenario.output.timeseries),
+            frames_due: frame_interval(scenario).map(due),
+            checkpoints_due: keeper.plan().and_then(|plan| plan.every).map(due),
+            keeper,
+            simulation,
+        };
+        run.frame()?;
+        Ok(run)
+    }
+
+    /// Runs all stages that are left, or those before the user stops it, and completes all files.
+    pub(super) fn complete(
+        mut self,
+        options: &RunOptions,
+        stop: &AtomicBool,
+        watch: Watch<'_>,
+    ) -> Result<RunSummary, RunError> {
+        let stage = self.scenario.stages[self.results.len().min(self.plans.len() - 1)].name.clone();
+        set_machine(&mut self.simulation, options).map_err(|source| RunError::Switch { stage, source })?;
+        match self.stages(stop, watch).and_then(|interrupted| self.finish(interrupted)) {
+            Ok(summary) => Ok(summary),
+            Err(mut error) => {
+                let step = self.keeper.rescue();
+                if let RunError::Step { saved, .. } = &mut error {
+                    *saved = step;
+                    self.salvage();
+                }
+                Err(error)
+            }
+        }
+    }
+
+    /// Runs all stages that are left; answers with how the user has stopped them.
+    fn stages(&mut self, stop: &AtomicBool, watch: Watch<'_>) -> Result<Option<StageResult>, RunError> {
+        for number in self.results.len()..self.scenario.stages.len() {
+            let result = self.stage(number, stop, watch)?;
+            if result.ending == Ending::Interrupted {
+                return Ok(Some(result));
+            }
+            self.results.push(result);
+            if self.keeper.plan().is_some_and(|plan| plan.stage_ends) {
+                let name = stage_file(number);
+                self.output.file(&name)?;
+                self.hold(None)?;
+                self.keeper.write_now(Some(&name))?;
+            }
+        }
+        Ok(None)
+    }
+
+    /// Runs one stage to its end.
+    fn stage(&mut self, number: usize, stop: &AtomicBool, watch: Watch<'_>) -> Result<StageResult, RunError> {
+        let scenario = self.scenario;
+        let stage = &scenario.stages[number];
+        let mut rules = match self.watch.take() {
+            Some(rules) => rules,
+            None => {
+                self.switch_to(number)?;
+                let rules = StageWatch::new(scenario, stage, &self.simulation);
+                self.row(number, &rules)?;
+                rules
+            }
+        };
+        let mut pace = Pace::new(self.simulation.steps());
+        let ending = loop {
+            let steps = self.steps_to_next_look(&rules);
+            self.simulation.advance(steps).map_err(|source| self.stopped(number, source))?;
+            if self.rows_due.now(&self.simulation) {
+                self.row(number, &rules)?;
+            }
+            let simulation = &self.simulation;
+            if self.frames_due.as_mut().is_some_and(|due| due.now(simulation)) {
+                self.frame()?;
+            }
+            if let Some(ending) = rules.ending(&self.simulation) {
+                break ending;
+            }
+            let simulation = &self.simulation;
+            let asked = self.checkpoints_due.as_mut().is_some_and(|due| due.now(simulation));
+            // All that belongs to this step has been written and decided: what follows is the next step.
+            if stop.load(Ordering::Relaxed) {
+                self.last_checkpoint(&rules)?;
+                break Ending::Interrupted;
+            }
+            self.checkpoint(&rules, asked)?;
+            if pace.is_due(self.simulation.steps()) {
+                let fraction = rules.progress(&self.simulation);
+                watch(&self.progress(number, &mut pace, fraction, None));
+            }
+        };
+        self.row(number, &rules)?;
+        self.frame()?;
+        if scenario.output.dimensionless.and_then(|scales| scales.reference_stage) == Some(number) {
+            self.measure.take_reference(scenario, &self.simulation);
+        }
+        watch(&self.progress(number, &mut pace, None, Some(ending)));
+        let (time, steps) = (self.simulation.time(), self.simulation.steps());
+        Ok(StageResult { name: stage.name.clone(), ending, time, steps })
+    }
+
+    /// Steps that can be done in one go before anything has to be looked at: the engine is faster so.
+    fn steps_to_next_look(&self, rules: &StageWatch<'_>) -> u64 {
+        let simulation = &self.simulation;
+        let pace = PACE - simulation.steps() % PACE;
+        let regular = [Some(&self.rows_due), self.frames_due.as_ref(), self.checkpoints_due.as_ref()];
+        let regular = regular.into_iter().flatten().map(|due| due.steps_left(simulation));
+        regular.fold(pace, u64::min).min(rules.steps_left(simulation)).max(1)
+    }
+
+    fn switch_to(&mut self, number: usize) -> Result<(), RunError> {
+        let (plan, stage) = (&self.plans[number], &self.scenario.stages[number]);
+        let simulation = &mut self.simulation;
+        if let Some(region) = &stage.remove {
+            simulation.remove_within(region);
+        }
+        let failed = |source| RunError::Switch { stage: stage.name.clone(), source };
+        if self.interactions != plan.interactions {
+            simulation.set_interactions(plan.interactions.clone()).map_err(failed)?;
+            self.interactions = plan.interactions.clone();
+        }
+        if *simulation.background() != plan.background {
+            simulation.set_background(plan.background).map_err(failed)?;
+        }
+        if simulation.time_step().to_bits() != plan.time_step.to_bits() {
+            simulation.set_time_step(plan.time_step).map_err(failed)?;
+        }
+        // A wall that was on its way by a function of time has arrived.
+        for place in (0..simulation.walls().len()).filter(|_| self.walls_arrive) {
+            let changed = plan.wall_changes.iter().any(|(wall, _)| *wall == place);
+            if !changed && simulation.walls()[place].motion.law().duration().is_some() {
+                simulation.set_wall_motion(place, WallMotion::Fixed).map_err(failed)?;
+            }
+        }
+        self.walls_arrive = true;
+        for (place, control) in &plan.wall_changes {
+            simulation.set_wall_motion(*place, control.motion().unwrap_or_default()).map_err(failed)?;
+            if matches!(control, WallControl::Removed) {
+                simulation.set_wall_present(*place, false);
+            }
+        }
+        if stage.form_bonds {
+            simulation.form_bonds();
+        }
+        Ok(())
+    }
+
+    fn row(&mut self, stage: usize, rules: &StageWatch<'_>) -> Result<(), RunError> {
+        let row = self.measure.row(self.scenario, &self.simulation, stage + 1, rules.start_lengths());
+        self.writer.row(&row)?;
+        self.rows.push(row);
+        // What is reported is right.
+        self.simulation.check_state().map_err(|source| self.stopped(stage, source))
+    }
+
+    fn stopped(&self, stage: usize, source: StepError) -> RunError {
+        let (stage, folder) = (self.scenario.stages[stage].name.clone(), self.output.path().to_path_buf());
+        RunError::Step { stage, source: Box::new(source), folder, saved: None }
+    }
+
+    fn frame(&mut self) -> Result<(), RunError> {
+        match &mut self.snapshots {
+            Some(snapshots) => snapshots.write(&self.simulation, &mut self.output),
+            None => Ok(()),
+        }
+    }
+
+    fn progress(
+        &mut self,
+        number: usize,
+        pace: &mut Pace,
+        fraction: Option<f64>,
+        ending: Option<Ending>,
+    ) -> Progress {
+        let steps_per_second = pace.rate(self.simulation.steps());
+        let elapsed = pace.began.elapsed().as_secs_f64();
+        let remaining = fraction.filter(|&done| done > 0.0).map(|done| elapsed * (1.0 - done) / done);
+        Progress {
+            stage: self.scenario.stages[number].name.clone(),
+            number: number + 1,
+            stages: self.scenario.stages.len(),
+            time: self.simulation.time(),
+            steps: self.simulation.steps(),
+            steps_per_second,
+            fraction,
+            remaining,
+            energy_error: self.simulation.ledger().relative_error(),
+            ending,
+        }
+    }
+
+    /// Completes the files of a run that has failed, and shows the state in which it did, as far as that is possible:
+    /// what failed is the error that counts.
+    fn salvage(&mut self) {
+        let _ = self.frame();
+        let _ = self.writer.flush();
+        let _ = self.draw();
+    }
+
+    fn draw(&mut self) -> Result<Vec<PathBuf>, RunError> {
+        if !self.scenario.output.plots {
+            return Ok(Vec::new());
+        }
+        let series = Series { measure: &self.measure, rows: &self.rows };
+        report::draw(self.scenario, &self.simulation, &series, &mut self.output)
+    }
+
+    fn finish(&mut self, interrupted: Option<StageResult>) -> Result<RunSummary, RunError> {
+        self.writer.flush()?;
+        let error_column = self.measure.column("relative_error").unwrap_or(0);
+        let errors = self.rows.iter().map(|row| row[error_column].abs());
+        let energy_error_max = errors.fold(0.0, max_or_nan);
+        let pictures = self.draw()?;
+        if interrupted.is_none() {
+            self.end_checkpoint()?;
+        }
+        let can_be_resumed = interrupted.is_some() && self.keeper.plan().is_some();
+        Ok(RunSummary {
+            folder: self.output.path().to_owned(),
+            stages: self.results.iter().cloned().chain(interrupted).collect(),
+            particles: self.simulation.particles().len(),
+            steps: self.simulation.steps(),
+            steps_before: self.steps_before,
+            wall_clock: self.began.elapsed().as_secs_f64(),
+            energy_error: self.simulation.ledger().relative_error(),
+            energy_error_max,
+            pictures,
+            can_be_resumed,
+        })
+    }
+}
+
+/// How often frames are written, if it is regularly.
+fn frame_interval(scenario: &Scenario) -> Option<pulvis_input::scenario::Interval> {
+    match scenario.output.snapshots {
+        SnapshotPlan::Never | SnapshotPlan::StageEnds => None,
+        SnapshotPlan::Every(interval) => Some(interval),
+    }
+}
