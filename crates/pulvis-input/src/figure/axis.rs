@@ -24,6 +24,20 @@ pub struct FigureAxis {
     pub range: Option<[f64; 2]>,
 }
 
+impl FigureAxis {
+    /// What it shows, in the words of the file: `overlap/delta_p`, or with its SI unit `overlap [m]`.
+    pub fn key(&self) -> String {
+        self.key_of(self.quantity.name)
+    }
+
+    /// The same of another quantity of its unit.
+    pub fn key_of(&self, name: &str) -> String {
+        let unit = self.quantity.unit;
+        let named = Scale::NAMED.into_iter().find(|(_, scale, _, _)| *scale == self.scale);
+        named.map_or_else(|| format!("{name} [{unit}]"), |(per, _, _, _)| format!("{name}/{per}"))
+    }
+}
+
 /// Reads a quantity of a `family`, or one of those `beside` it.
 pub(super) fn read_quantity(
     table: &mut TableReader<'_>,

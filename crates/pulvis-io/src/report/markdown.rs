@@ -41,10 +41,8 @@ fn section(section: &Section) -> String {
             Block::Remark { head, text: words } => format!("**{}** {}\n", text(head), text(words)),
             Block::Picture { file, alternative, .. } => format!("![{}]({file})\n", text(alternative)),
             Block::Table(table) => self::table(table),
-            Block::Files(files) => {
-                let links = files.iter().map(|file| format!("[{}]({file})", text(file)));
-                format!("{}\n", links.collect::<Vec<_>>().join(", "))
-            }
+            // No links: a report is also kept without all its files.
+            Block::Files(files) => format!("Files: {}\n", text(&files.join(", "))),
             Block::Listing { head, text: listing } => {
                 format!("{}:\n\n```toml\n{}\n```\n", text(head), listing.trim_end())
             }

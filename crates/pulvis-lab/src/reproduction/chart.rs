@@ -110,18 +110,18 @@ impl Painter<'_> {
                 series.label.clone().filter(|_| alone).unwrap_or_else(|| {
                     if subject == method { subject } else { format!("{method}: {subject}") }
                 });
-            self.write(&in_table, &points)?;
+            self.write(&in_table, identity.3, &points)?;
             let drawn = Series::new(name, style, drawable(self.panel, style, points)).colour(colour);
             self.chart = std::mem::take(&mut self.chart).series(drawn);
         }
         Ok(())
     }
 
-    fn write(&mut self, curve: &str, points: &[(f64, f64)]) -> Result<(), ReproductionError> {
+    fn write(&mut self, curve: &str, y: &str, points: &[(f64, f64)]) -> Result<(), ReproductionError> {
+        let keys = [self.panel.x.key(), self.panel.y.key_of(y), curve.to_owned()];
         for (x, y) in points {
-            let text = |text: &str| Cell::from(text);
             let panel = Cell::from((self.number + 1).to_string());
-            let labels = [text(&self.panel.x.label), text(&self.panel.y.label), text(curve)];
+            let labels = keys.clone().map(Cell::from);
             self.table.push([panel].into_iter().chain(labels).chain([(*x).into(), (*y).into()]))?;
         }
         Ok(())
@@ -133,7 +133,7 @@ impl Painter<'_> {
         const GREY: usize = 6;
         for guide in &self.panel.guides {
             let points = guide.ends.map(|[x, y]| (x, y));
-            self.write(&guide.label, &points)?;
+            self.write(&guide.label, self.panel.y.quantity.name, &points)?;
             let line = Series::dashed(&guide.label, points).colour(GREY);
             self.chart = std::mem::take(&mut self.chart).series(line);
         }

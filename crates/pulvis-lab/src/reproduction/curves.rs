@@ -233,7 +233,7 @@ fn of_paths(panel: &FigurePanel, series: &FigureSeries, of_data: &OfData<'_>) ->
         };
         let (method, style) = method(&series.show, true);
         Curve {
-            identity: (series.data, number, None, panel.y.quantity.name),
+            identity: (series.data, number, None, y),
             subject: (paths.len() > 1).then(|| path.label.clone()),
             method: if method == "exact" { "computed" } else { method },
             style,
