@@ -123,9 +123,9 @@ impl<R: Real> NormalMotion<R> {
         Self { radius_i, radius_j, ..self }
     }
 
-    /// Whether the bodies overlapped before the step already.
+    /// Whether the bodies overlapped before the step; in a first look, whether they do now.
     #[inline(always)]
     pub fn touched_before(&self) -> R::Mask {
-        !self.overlap.lt(self.growth) & self.touching
+        self.overlap.gt(self.growth)
     }
 }

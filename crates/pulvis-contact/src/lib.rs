@@ -53,7 +53,7 @@ pub use normal::{
     Dahneke, Dmt, Hertz, Jkr, LeeRadok, Linear, Luding, Normal, NormalLaw, NormalLawVisitor, NormalResponse,
     ThorntonNing, ViscoelasticJkr, WaltonJohnson,
 };
-pub use pair::{MOST_QUANTITIES, Pair, Quantities};
+pub use pair::{MOST_QUANTITIES, Pair, Quantities, Sizes};
 pub use response::ContactResponse;
 pub use time_scales::Partner;
 pub use viscosity::Viscosity;

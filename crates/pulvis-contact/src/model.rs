@@ -8,6 +8,7 @@ use crate::bond::Bond;
 use crate::catalogue::Parameter;
 use crate::conventions::Conventions;
 use crate::energy::ContactEnergies;
+use crate::events;
 use crate::expected::ExpectedLoading;
 use crate::friction::{CommonFriction, ContactScale, Friction};
 use crate::kinematics::{ContactInputs, ContactKinematics, NormalMotion, ROOM_TEMPERATURE};
@@ -15,7 +16,7 @@ use crate::levels;
 use crate::memory::{Columns, MemoryLayout, MemorySlots};
 use crate::noncontact::{self, NonContact};
 use crate::normal::{Normal, NormalResponse, NormalSource};
-use crate::pair::{Pair, Quantities};
+use crate::pair::{Pair, Quantities, Sizes};
 use crate::resistance::Resistance;
 use crate::response::ContactResponse;
 use crate::viscosity::{self, Viscosity};
@@ -94,26 +95,33 @@ impl ContactModel {
 
     /// The quantities of each particle that its laws read: those of the normal law, then those of the attraction.
     pub fn particle_quantities(&self) -> impl Iterator<Item = &'static Parameter> + use<> {
+        let [normal, attraction] = self.quantities_by_law();
+        normal.iter().chain(attraction)
+    }
+
+    /// The quantities that the normal law reads, and those that the attraction does.
+    pub fn quantities_by_law(&self) -> [&'static [Parameter]; 2] {
         let (normal, attraction) = (self.normal.entry(), self.laws.noncontact.entry());
-        normal.particle_quantities.iter().chain(attraction.particle_quantities)
+        let reads = self.laws.noncontact.reads_quantities();
+        [normal.particle_quantities, if reads { attraction.particle_quantities } else { &[] }]
     }
 
     /// The quantities of two bodies that the laws read, in their order, from those `of` a name.
     pub fn quantities(&self, of: impl Fn(&str) -> [f64; 2]) -> Quantities {
         let mut quantities = Quantities::default();
-        let (normal, attraction) = (self.normal.entry(), self.laws.noncontact.entry());
-        for (slots, entry) in [(&mut quantities.normal, normal), (&mut quantities.attraction, attraction)] {
-            for (slot, quantity) in slots.iter_mut().zip(entry.particle_quantities) {
+        let slots = [&mut quantities.normal, &mut quantities.attraction];
+        for (slots, read) in slots.into_iter().zip(self.quantities_by_law()) {
+            for (slot, quantity) in slots.iter_mut().zip(read) {
                 *slot = of(quantity.name);
             }
         }
         quantities
     }
 
-    /// The same contact knowing the `largest` size of each particle quantity by its name: what bounds its stiffness.
+    /// The same contact knowing the sizes of each particle quantity by its name: what bounds its stiffness and its range.
     #[must_use]
-    pub fn bounded_by(mut self, largest: impl Fn(&str) -> f64) -> Self {
-        self.laws.noncontact = self.laws.noncontact.bounded_by(&largest);
+    pub fn bounded_by(mut self, sizes: impl Fn(&str) -> Sizes) -> Self {
+        self.laws.noncontact = self.laws.noncontact.bounded_by(&sizes);
         self
     }
 
@@ -269,19 +277,25 @@ impl ContactLaws {
         if !matches!(self.viscosity, Viscosity::None(_)) {
             coefficient += self.viscosity.coefficient(pair, along.depth, elastic);
         }
-        let viscous = (coefficient * along.closing_rate).keep_where(elastic.in_contact);
-        let mut normal_force = elastic.applied_force + viscous;
+        let dashpot = coefficient * along.closing_rate;
+        let viscous = dashpot.keep_where(elastic.in_contact);
+        let [applied_viscous, closing] = if N::DASHPOT || !matches!(self.viscosity, Viscosity::None(_)) {
+            events::of_dashpot(&along, elastic, dashpot)
+        } else {
+            [viscous, along.closing_rate]
+        };
+        let mut normal_force = elastic.applied_force + applied_viscous;
         let mut energies = ContactEnergies {
             elastic_normal: elastic.stored_energy,
             adhesive_potential: elastic.adhesive_potential,
             dissipated_plastic: elastic.dissipated_plastic,
             dissipated_adhesive: elastic.dissipated_adhesive,
             dissipated_thermal: elastic.dissipated_thermal,
-            viscous_power: viscous * along.closing_rate,
+            viscous_power: applied_viscous * closing,
             ..ContactEnergies::default()
         };
         let mut attraction_force = R::zero();
-        let mut event_force = elastic.applied_force - elastic.force;
+        let mut event_force = elastic.applied_force - elastic.force + (applied_viscous - viscous);
         if N::COMMON.is_none() && !matches!(self.noncontact, NonContact::None(_)) {
             let attraction = self.noncontact.respond(&along, columns, slots.attraction);
             normal_force += attraction.applied_force;

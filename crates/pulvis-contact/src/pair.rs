@@ -27,6 +27,25 @@ pub struct Quantities<R = f64> {
     pub attraction: [[R; 2]; MOST_QUANTITIES],
 }
 
+/// How large a quantity of the particles that there are is, in SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sizes {
+    /// The least size that is not zero; infinite where there is none.
+    pub least: f64,
+    /// The largest size; zero where there is none.
+    pub largest: f64,
+}
+
+impl FromIterator<f64> for Sizes {
+    fn from_iter<I: IntoIterator<Item = f64>>(values: I) -> Self {
+        let none = Self { least: f64::INFINITY, largest: 0.0 };
+        values.into_iter().map(f64::abs).fold(none, |Self { least, largest }, size| Self {
+            least: if size > 0.0 { least.min(size) } else { least },
+            largest: largest.max(size),
+        })
+    }
+}
+
 // Not derived: what is derived is not inlined by force.
 impl<R: Real> Default for Quantities<R> {
     #[inline(always)]
@@ -80,13 +99,6 @@ impl<R: Real> Pair<R> {
         }
     }
 
-    /// Sets the sums of one over the masses [1/kg] and of one over the radii [1/m]; the quantities stay.
-    #[inline(always)]
-    pub fn set_sums(&mut self, inverse_masses: R, inverse_radii: R) {
-        self.inverse_reduced_mass = inverse_masses;
-        self.inverse_harmonic_radius = R::splat(0.5) * inverse_radii;
-    }
-
     /// The same bodies with the quantities that laws ask for.
     #[must_use]
     #[inline(always)]
@@ -98,12 +110,6 @@ impl<R: Real> Pair<R> {
     #[inline(always)]
     pub fn quantities(&self) -> &Quantities<R> {
         &self.quantities
-    }
-
-    /// The same, to be set.
-    #[inline(always)]
-    pub fn quantities_mut(&mut self) -> &mut Quantities<R> {
-        &mut self.quantities
     }
 
     /// One pair a lane, from its index.

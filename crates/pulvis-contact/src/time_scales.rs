@@ -52,7 +52,8 @@ impl Partner {
 impl ContactModel {
     /// Shortest duration [s] of any motion that the contact can make: π over its highest frequency,
     /// over all branches and springs, for a sphere with mass [kg] and radius [m] and what it meets. Laws whose
-    /// stiffness has no bound take it from the loading that is expected.
+    /// stiffness has no bound take it from the loading that is expected. A contact that changes at rest counts with the
+    /// [rate](crate::NormalLaw::relaxation_rate) at which it does, if steps must resolve that.
     ///
     /// Squares of the frequencies: k/m_r along the normal; k_o L² (1/I_i + 1/I_j) of torsion; and the
     /// larger one of the two modes into which sliding, k_t (1/m_r + a_i²/I_i + a_j²/I_j), and rolling,
@@ -71,13 +72,14 @@ impl ContactModel {
         let stiffness = |law: &Option<Friction>| law.as_ref().map_or(0.0, |law| law.max_stiffness(&scale));
         let dashpot = |law: &Option<Friction>| law.as_ref().map_or(0.0, Friction::dashpot);
         let (normal_stiffness, normal_dashpot) = self.steepest_normal(body_i, body_j);
+        let relaxation = self.normal.relaxation_rate(&pair, &laws.expected);
         let squares = (normal_stiffness * pair.inverse_reduced_mass())
             .max(modes.highest(stiffness(&laws.sliding), stiffness(&laws.rolling)) + bond.sideways[0])
             .max(modes.turning * stiffness(&laws.torsion) + bond.twisting[0]);
         let rates = (normal_dashpot * pair.inverse_reduced_mass())
             .max(modes.highest(dashpot(&laws.sliding), dashpot(&laws.rolling)) + bond.sideways[1])
             .max(modes.turning * dashpot(&laws.torsion) + bond.twisting[1]);
-        PI / squares.sqrt().max(rates)
+        PI / squares.sqrt().max(rates).max(relaxation)
     }
 
     /// The steepest slope [N/m] of the force along the normal over all branches, and the largest coefficient of its

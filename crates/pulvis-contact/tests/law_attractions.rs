@@ -130,3 +130,73 @@ fn bodies_with_a_bridge_lose_the_work_to_break_it_and_stick_below() {
         assert!(coarse < 2e-2 && fine < coarse / 12.0 + 1e-8, "{ratio}: {coarse} {fine}");
     }
 }
+
+fn shared(share: f64, angle: f64) -> LiquidBridge {
+    LiquidBridge::shared(share, 0.072, angle)
+}
+
+/// The pair with so much liquid on both bodies [m³].
+fn wetted(pair: Pair, liquid: [f64; 2]) -> Pair {
+    let mut quantities = *pair.quantities();
+    quantities.attraction[0] = liquid;
+    pair.with_quantities(quantities)
+}
+
+#[test]
+fn a_bridge_from_the_liquid_of_two_bodies_has_the_volume_that_they_share() {
+    // Caps of equal spheres: φ = (2 − √3)/4 = 0.066987298; 1e-11 and 4.928203230e-12 m³ make one of 1e-12 m³.
+    let share = (2.0 - 3.0_f64.sqrt()) / 4.0;
+    let liquid = [1e-11, 1e-12 / share - 1e-11];
+    assert!((liquid[1] - 4.928203230275509e-12).abs() < 1e-26, "{liquid:?}");
+    let pair = |liquid: [f64; 2]| wetted(Pair::spheres(1e-6, 1e-6, 1e-3, 1e-3), liquid);
+    for [volume, radius, _, angle, distance, force, rupture, work] in BRIDGES {
+        assert_eq!([volume, radius], [1e-12, 1e-3]);
+        let bridge = shared(share, angle);
+        let at = |overlap: f64, memory: &mut [f64; 1]| {
+            bridge.respond(&NormalMotion::at_rest(&pair(liquid), overlap), memory)
+        };
+        let mut memory = [0.0];
+        let formed = at(0.0, &mut memory);
+        // The published work is a quadrature.
+        assert!((formed.dissipated / work - 1.0).abs() < 1e-11, "{} {work}", formed.dissipated);
+        let found = at(-distance, &mut memory).force;
+        assert!((found / force - 1.0).abs() < 1e-14, "{found} {force}");
+        assert!(at(-0.999_999 * rupture, &mut memory).force < 0.0);
+        assert_eq!((at(-1.000_001 * rupture, &mut memory), memory), (NonContactResponse::default(), [0.0]));
+        let range = bridge.interaction_range(&pair(liquid));
+        assert!(range >= rupture * (1.0 - 1e-15), "{range} {rupture}");
+    }
+}
+
+#[test]
+fn dry_bodies_have_no_bridge_and_a_wall_gives_no_liquid() {
+    let bridge = shared(0.1, 0.0);
+    let spheres = Pair::spheres(1e-6, 1e-6, 1e-3, 1e-3);
+    let mut memory = [0.0];
+    let dry = bridge.respond(&NormalMotion::at_rest(&wetted(spheres, [0.0; 2]), 1e-6), &mut memory);
+    assert_eq!((dry, memory), (NonContactResponse::default(), [0.0]));
+    // One wet body is enough, and the bridge is that of as much liquid in the middle between both.
+    let force = |pair: Pair| bridge.respond(&NormalMotion::at_rest(&pair, -1e-5), &mut [1.0]).force;
+    assert!(force(wetted(spheres, [2e-12, 0.0])) < 0.0);
+    assert_eq!(force(wetted(spheres, [2e-12, 0.0])), force(wetted(spheres, [1e-12, 1e-12])));
+    let wall = bridge
+        .respond(&NormalMotion::at_rest(&wetted(Pair::wall(1e-6, 1e-3), [2e-12, 0.0]), -1e-5), &mut [1.0]);
+    let fixed = LiquidBridge::new(2e-13, 0.072, 0.0);
+    let of_volume = fixed.respond(&NormalMotion::at_rest(&Pair::wall(1e-6, 1e-3), -1e-5), &mut [1.0]);
+    assert!((wall.force / of_volume.force - 1.0).abs() < 1e-14, "{} {}", wall.force, of_volume.force);
+}
+
+#[test]
+fn range_and_stiffness_of_bridges_cover_all_liquid_that_there_is() {
+    let bounded = shared(0.1, 0.2).bounded_by(&|name| {
+        assert_eq!(name, "liquid");
+        [0.0, 1e-12, 3e-11].into_iter().collect()
+    });
+    let pair = Pair::spheres(1e-6, 1e-6, 1e-3, 1e-3);
+    let (range, stiffness) = (bounded.interaction_range(&pair), bounded.max_stiffness(&pair));
+    for liquid in [[1e-12, 0.0], [1e-12, 1e-12], [3e-11, 1e-12], [3e-11, 3e-11]] {
+        let own = LiquidBridge::new(0.1 * (liquid[0] + liquid[1]), 0.072, 0.2);
+        assert!(own.interaction_range(&pair) <= range * (1.0 + 1e-15), "{liquid:?}");
+        assert!(own.max_stiffness(&pair) <= stiffness * (1.0 + 1e-15), "{liquid:?}");
+    }
+}

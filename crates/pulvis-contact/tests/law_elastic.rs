@@ -51,7 +51,8 @@ fn tsujis_dashpot_gives_the_same_restitution_at_any_speed() {
         let model = ContactModel { normal: Hertz { effective_modulus: modulus }.into(), laws };
         let squares = [1e-3, 0.1, 10.0].map(|speed| {
             let dt = theory.contact_duration(speed) / 4_000.3;
-            collide(&model, (mass, radius), speed, dt, 0.0).restitution.powi(2)
+            // It begins before touch: at touch, round-off would say whether the bodies have met in the first step.
+            collide(&model, (mass, radius), speed, dt, -1e-12 * radius).restitution.powi(2)
         });
         // The dashpot ~ δ^(1/4) is steep at touch: between first and second order, 5e-4 at 200 steps a contact.
         for square in squares {

@@ -188,3 +188,24 @@ fn adhesive_bodies_rebound_as_published_and_slow_ones_stick() {
         assert!(couple.normal_force != 0.0, "parted at {} m", couple.overlap);
     }
 }
+
+#[test]
+fn the_name_of_the_branch_does_not_flicker_while_the_contact_yields() {
+    let pair = Pair::wall(MASS, RADIUS);
+    for adhesion in [ADHESION, 0.0] {
+        let law = ThorntonNing::new(MODULUS, PRESSURE, adhesion, false);
+        let mut memory = ThorntonNingMemory::default();
+        let mut names: Vec<&str> = Vec::new();
+        let mut look = |overlap: f64, memory: &mut ThorntonNingMemory<f64>| {
+            law.respond(&NormalMotion::at_rest(&pair, overlap), memory);
+            let (_, name) = law.branch(&pair, overlap, memory);
+            if names.last() != Some(&name) {
+                names.push(name);
+            }
+        };
+        (1..=3000).for_each(|step| look(1e-11 * f64::from(step), &mut memory));
+        (1..3000).rev().for_each(|step| look(1e-11 * f64::from(step), &mut memory));
+        let end = if adhesion > 0.0 { "apart" } else { "free" };
+        assert_eq!(names, ["elastic", "plastic", "unloading", end], "Γ = {adhesion}");
+    }
+}

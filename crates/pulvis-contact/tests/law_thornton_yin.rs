@@ -153,3 +153,37 @@ fn without_adhesion_it_is_the_law_of_mindlin() {
     }
     assert!(plain.lost > 0.0);
 }
+
+#[test]
+fn a_viscoelastic_neck_peels_as_an_elastic_one_and_contacts_without_a_neck_do_not_peel() {
+    use pulvis_contact::catalogue::Values;
+    use pulvis_contact::{ContactModel, Normal};
+    use pulvis_testkit::bodies::{Couple, Sphere};
+    let values = |numbers: &[(&str, f64)]| {
+        numbers.iter().fold(Values::new(), |values, (name, number)| values.with(name, *number))
+    };
+    let (modulus, adhesion) = (("effective_modulus", MODULUS), ("work_of_adhesion", 0.1));
+    let build = |name: &str, numbers: &[(&str, f64)]| Normal::build(name, &values(numbers)).unwrap().unwrap();
+    let run = |normal: Normal, sliding: pulvis_contact::Friction| {
+        let mut model = ContactModel::frictionless(normal);
+        model.laws.sliding = Some(sliding);
+        let mut sphere = Sphere::at_rest(8e-15, RADIUS, pulvis_math::Vector3::new(0.0, 0.0, RADIUS));
+        sphere.velocity = pulvis_math::Vector3::new(0.3, 0.0, -0.2);
+        let mut couple = Couple::new(&model, sphere, None);
+        (0..2000).for_each(|_| couple.step(1e-10));
+        (couple.i.velocity, couple.i.angular_velocity, couple.lost)
+    };
+    let jkr = run(build("jkr", &[modulus, adhesion]), law(0.3).into());
+    let viscoelastic = build("viscoelastic-jkr", &[modulus, adhesion, ("dissipative_time", 0.0)]);
+    assert_eq!(jkr, run(viscoelastic, law(0.3).into()));
+    assert!(jkr.1.norm() > 0.0 && jkr.2 > 0.0, "{jkr:?}");
+    // Without a neck the law is that of Mindlin with the limit that the normal law names: μ (F + 2 π Γ R).
+    let dmt = build("dmt", &[modulus, adhesion]);
+    let mindlin = pulvis_contact::friction::Mindlin {
+        effective_shear_modulus: SHEAR_MODULUS,
+        dashpot: 0.0,
+        coefficient: 0.3,
+        rescale: pulvis_contact::friction::Rescale::Energy,
+    };
+    assert_eq!(run(dmt, law(0.3).into()), run(dmt, mindlin.into()));
+}

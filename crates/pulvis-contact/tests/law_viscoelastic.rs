@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use pulvis_contact::catalogue::{Law, Values};
 use pulvis_contact::normal::{LeeRadok, LeeRadokMemory, ViscoelasticJkr};
 use pulvis_contact::theory::{HertzPair, JkrPair};
-use pulvis_contact::{ContactModel, ExpectedLoading, NormalLaw, NormalMotion, Pair};
+use pulvis_contact::{ContactModel, ExpectedLoading, Normal, NormalLaw, NormalMotion, Pair};
 use pulvis_math::Vector3;
 use pulvis_testkit::bodies::{Couple, Sphere};
 use pulvis_testkit::collisions::collide;
@@ -154,4 +154,80 @@ fn a_pull_off_force_at_touch_is_conservative_beside_the_relaxation() {
     });
     // The relaxation takes 1e-5 of the contact time's share.
     assert!(errors[0] < 1e-2 && errors[1] < 1e-3, "{errors:?}");
+}
+
+#[test]
+fn the_automatic_step_need_not_resolve_the_relaxation_time() {
+    let spring = |time: f64| {
+        let values = Values::new()
+            .with("modulus_instant", 1e9)
+            .with("modulus_relaxed", 2e8)
+            .with("relaxation_time", time);
+        Normal::build("lee-radok", &values).unwrap().unwrap()
+    };
+    let speed = 0.5;
+    let contact = HertzPair::new(2e8, RADIUS, MASS).unwrap().contact_duration(speed);
+    for ratio in [1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 1e3] {
+        let mut model = ContactModel::frictionless(spring(ratio * contact));
+        model.laws.expected.speed = speed;
+        let automatic = model.shortest_contact_time((MASS, RADIUS), None::<(f64, f64)>) / 50.0;
+        let [coarse, fine] = [1.0, 16.0].map(|times| {
+            let found = collide(&model, (MASS, RADIUS), speed, automatic / times, 0.0);
+            assert!(found.missing < 1e-3 / times, "τ = {ratio} t_c: {} is missing", found.missing);
+            found.restitution.powi(2)
+        });
+        // The exponential of the step is exact: what errs is A(t), which is taken as linear in it.
+        assert!((coarse - fine).abs() < 1e-3, "τ = {ratio} t_c: {coarse} {fine}");
+    }
+}
+
+/// Squares of the restitution at the automatic step and at a sixteenth of it, with what was missing in the books at most.
+fn at_the_automatic_step(model: &ContactModel, speed: f64) -> [f64; 2] {
+    let (mass, radius) = (1e-6, 0.5e-3);
+    let automatic = model.shortest_contact_time((mass, radius), None::<(f64, f64)>) / 50.0;
+    [1.0, 16.0].map(|times| {
+        let found = collide(model, (mass, radius), speed, automatic / times, -1e-12 * radius);
+        assert!(found.missing < 1e-3 / times, "{:?}: {} is missing", model.normal, found.missing);
+        found.restitution.powi(2)
+    })
+}
+
+#[test]
+fn the_automatic_step_need_not_resolve_how_fast_a_contact_melts() {
+    // At room temperature the law has half melted: k_T = k1/2.
+    for ratio in [1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 1e3] {
+        let values = Values::new()
+            .with("k1", 100.0)
+            .with("kp", 500.0)
+            .with("kc", 20.0)
+            .with("phi_f", 0.2)
+            .with("t_melt", 293.15)
+            .with("t_width", 10.0)
+            .with("time_scale", ratio * PI * (1e-6_f64 / 100.0).sqrt());
+        let normal = Normal::build("sinter-luding", &values).unwrap().unwrap();
+        let [coarse, fine] = at_the_automatic_step(&ContactModel::frictionless(normal), 0.1);
+        // Largest where both times are alike: the plastic line moves within a step.
+        assert!(fine < 0.99 && (coarse - fine).abs() < 3e-3, "t_0 = {ratio} t_c: {coarse} {fine}");
+    }
+}
+
+#[test]
+fn the_automatic_step_resolves_how_fast_a_plastic_overlap_grows() {
+    // μ t_c, with μ = 2 r k1/σ_s; faster ones stick.
+    for (growth, products) in [("constant", [1e-2, 0.1, 0.5]), ("parhami-mcmeeking", [1e-4, 1e-3, 1e-2])] {
+        for product in products {
+            let rate = product * 0.1 / (2.0 * 100.0) / (PI * (1e-6_f64 / 100.0).sqrt());
+            let values = Values::new()
+                .with("k1", 100.0)
+                .with("kp", 500.0)
+                .with("kc", 20.0)
+                .with("phi_f", 0.2)
+                .with("sinter_tension", 0.1)
+                .with("rate", rate);
+            let normal =
+                Normal::build("sinter-overlap", &values.with_choice("growth", growth)).unwrap().unwrap();
+            let [coarse, fine] = at_the_automatic_step(&ContactModel::frictionless(normal), 1.0);
+            assert!((coarse - fine).abs() < 1e-3, "{growth}, μ t_c = {product}: {coarse} {fine}");
+        }
+    }
 }

@@ -8,9 +8,9 @@ mod common;
 
 use common::*;
 use pulvis_boundary::Cuboid;
-use pulvis_contact::catalogue::{LawEntry, Role};
-use pulvis_contact::friction;
+use pulvis_contact::catalogue::{LawEntry, Role, Value, Values};
 use pulvis_contact::{ContactLaws, ContactModel, Linear, NonContact, Normal, Pair, Viscosity};
+use pulvis_contact::{bond, friction};
 use pulvis_core::{Domain, NamedColumn, Setup, Simulation};
 use pulvis_math::Vector3;
 use pulvis_packing::{gaussian_vector, random_positions, random_stream};
@@ -22,11 +22,12 @@ const MOTION: f64 = 0.025;
 /// Steps in the shortest contact that a scenario takes unless told otherwise.
 const AUTOMATIC: f64 = 50.0;
 
-/// The steps of a bed, and how many grains it has.
+/// The steps of a bed, how many grains it has, and the part of the volume that they fill.
 #[derive(Clone, Copy)]
 struct Size {
     grains: usize,
     steps: usize,
+    fraction: f64,
 }
 
 /// What the examples of all laws make, each by its name: normal laws with sliding friction, other laws beside a
@@ -38,34 +39,60 @@ fn models() -> Vec<(String, ContactModel)> {
             Role::NonContact => NonContact::ENTRIES.iter().collect(),
             Role::Viscosity => Viscosity::ENTRIES.iter().collect(),
             Role::Sliding | Role::Rolling | Role::Torsion => friction::entries(role),
-            Role::Bond | Role::Conventions | Role::Expected => Vec::new(),
+            Role::Bond => bond::entries(),
+            Role::Conventions | Role::Expected => Vec::new(),
         };
         entries
     });
-    // Charges act farther than a small box is wide; they have a bed of their own in `surroundings.rs`.
-    let fit = roles.filter(|entry| !["none", "coulomb"].contains(&entry.name));
-    fit.map(|entry| (label(entry), model(entry))).collect()
+    let laws = roles.filter(|entry| entry.name != "none");
+    let mut models: Vec<_> = laws.map(|entry| (label(entry), model(entry, example(entry).1))).collect();
+    let entry =
+        |entries: &[&'static LawEntry], name: &str| *entries.iter().find(|entry| entry.name == name).unwrap();
+    let brittle = entry(&bond::entries(), "elastic-brittle");
+    models.push((
+        "bond with dashpots".to_owned(),
+        model(brittle, example(brittle).1.with("damping_time", 2e-6)),
+    ));
+    let attractions: Vec<&LawEntry> = NonContact::ENTRIES.iter().collect();
+    let bridge = entry(&attractions, "liquid-bridge");
+    let shared = Values::new().with("liquid_share", 0.067).with("surface_tension", 0.072);
+    models.push(("liquid of the grains".to_owned(), model(bridge, shared)));
+    let jump = entry(&attractions, "jump-in");
+    let without_reach = Values::new().with("f_a", 1e-5).with("kc_a", f64::INFINITY);
+    models.push(("jump-in without reach".to_owned(), model(jump, without_reach)));
+    models
 }
 
 fn label(entry: &LawEntry) -> String {
     format!("{} {}", entry.role.key(), entry.name)
 }
 
-fn model(entry: &LawEntry) -> ContactModel {
-    let (name, values) = example(entry);
+fn model(entry: &LawEntry, mut values: Values) -> ContactModel {
+    let name = entry.name;
     let hertz = || Normal::build("hertz", &example(named("hertz")).1).unwrap().unwrap();
     let mut laws = ContactLaws::default();
     let mut normal: Normal = Linear::new(100.0, 0.0).into();
     match entry.role {
-        Role::Normal => normal = Normal::build(&name, &values).unwrap().unwrap(),
-        Role::NonContact => laws.noncontact = NonContact::build(&name, &values).unwrap().unwrap(),
+        Role::Normal => normal = Normal::build(name, &values).unwrap().unwrap(),
+        Role::NonContact => {
+            if name == "coulomb" {
+                // The box is ten radii wide.
+                values.set("cutoff", Value::Number(2.0 * RADIUS));
+            }
+            laws.noncontact = NonContact::build(name, &values).unwrap().unwrap();
+        }
+        Role::Bond => {
+            normal = hertz();
+            let values = values.with_choice("form", "first-touch");
+            laws.bond = bond::build(name, &values).unwrap().unwrap();
+        }
         Role::Viscosity => {
             normal = hertz();
-            laws.viscosity = Viscosity::build(&name, &values).unwrap().unwrap();
+            laws.viscosity = Viscosity::build(name, &values).unwrap().unwrap();
         }
         role => {
             normal = hertz();
-            let law = friction::build(role, &name, &values).unwrap().unwrap();
+            let law = friction::build(role, name, &values).unwrap().unwrap();
             match role {
                 Role::Sliding => laws.sliding = law,
                 Role::Rolling => laws.rolling = law,
@@ -73,7 +100,7 @@ fn model(entry: &LawEntry) -> ContactModel {
             }
         }
     }
-    let mass = sphere(Vector3::zero(), Vector3::zero(), RADIUS).mass;
+    let mass = mass();
     let pair = Pair::spheres(mass, mass, RADIUS, RADIUS);
     // The speed depends on the duration of contacts, which depends little on the speed.
     for _ in 0..3 {
@@ -84,17 +111,47 @@ fn model(entry: &LawEntry) -> ContactModel {
     if laws.sliding.is_none() {
         laws.sliding = Some(slider(0.2 * normal.max_stiffness(&pair, &laws.expected), 0.0, 0.3));
     }
-    ContactModel { normal, laws }
+    let model = ContactModel { normal, laws };
+    model.bounded_by(|name| {
+        columns(&model, 2)
+            .into_iter()
+            .filter(|column| column.name == name)
+            .flat_map(|column| column.values)
+            .collect()
+    })
+}
+
+fn mass() -> f64 {
+    sphere(Vector3::zero(), Vector3::zero(), RADIUS).mass
+}
+
+/// What laws read of the grains: thin shells; charges of both signs whose energy at touch is that of the motion of a grain;
+/// liquid on two of three grains.
+fn columns(model: &ContactModel, grains: usize) -> Vec<NamedColumn> {
+    let speed = 0.5 * model.laws.expected.speed;
+    // K q²/(2 R) = m v²/2.
+    let charge = speed * (mass() * RADIUS / 8.987_551_792_3e9).sqrt();
+    let column = |name: &str, unit: &str, value: &dyn Fn(usize) -> f64| NamedColumn {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        values: (0..grains).map(value).collect(),
+    };
+    let liquid = 1e-2 * RADIUS * RADIUS * RADIUS;
+    vec![
+        column("shell_thickness", "m", &|_| 0.01 * RADIUS),
+        column("charge", "C", &|grain| if grain % 2 == 0 { charge } else { -charge }),
+        column("liquid", "m^3", &|grain| liquid * (grain % 3) as f64),
+    ]
 }
 
 fn named(name: &str) -> &'static LawEntry {
     Normal::ENTRIES.iter().find(|entry| entry.name == name).unwrap()
 }
 
-/// Grains at a solid fraction of 0.3 in a periodic cube, which move and turn.
-fn bed(grains: usize, model: ContactModel) -> Setup {
-    let volume = grains as f64 * sphere(Vector3::zero(), Vector3::zero(), RADIUS).mass / 2500.0;
-    let edge = pulvis_math::elementary::powf(volume / 0.3, 1.0 / 3.0);
+/// Grains in a periodic cube, which move and turn.
+fn bed(Size { grains, fraction, .. }: Size, model: ContactModel) -> Setup {
+    let volume = grains as f64 * mass() / 2500.0;
+    let edge = pulvis_math::elementary::powf(volume / fraction, 1.0 / 3.0);
     let upper = vector(edge, edge, edge);
     let domain = Domain::periodic(Vector3::zero(), upper, [true; 3]);
     let speed = 0.5 * model.laws.expected.speed;
@@ -111,12 +168,11 @@ fn bed(grains: usize, model: ContactModel) -> Setup {
 }
 
 /// The largest relative errors of the ledger in a bed that takes so many steps, `times` as short as the automatic one.
-fn error(model: ContactModel, Size { grains, steps }: Size, times: u16) -> f64 {
-    let mut setup = bed(grains, model);
+fn error(model: ContactModel, size: Size, times: u16) -> f64 {
+    let Size { grains, steps, .. } = size;
+    let mut setup = bed(size, model);
     setup.time_step = contact_time(&setup) / (AUTOMATIC * f64::from(times));
-    let values = vec![0.01 * RADIUS; grains];
-    let shells = NamedColumn { name: "shell_thickness".to_owned(), unit: "m".to_owned(), values };
-    let mut simulation = Simulation::with_columns(setup, vec![shells]).unwrap();
+    let mut simulation = Simulation::with_columns(setup, columns(&model, grains)).unwrap();
     let error = advance_watching(&mut simulation, steps * usize::from(times), 50);
     assert!(simulation.ledger().dissipated_sliding > 0.0, "nothing has met");
     error
@@ -141,11 +197,12 @@ fn ledgers_close(size: Size) {
 
 #[test]
 fn the_ledger_closes_for_every_law_in_a_small_bed() {
-    ledgers_close(Size { grains: 64, steps: 600 });
+    ledgers_close(Size { grains: 64, steps: 600, fraction: 0.3 });
 }
 
 #[test]
 #[ignore = "takes minutes; `cargo xtask slow` runs it"]
 fn the_ledger_closes_for_every_law_in_a_bed() {
-    ledgers_close(Size { grains: 1000, steps: 10_000 });
+    // Random places for more are not found.
+    ledgers_close(Size { grains: 1000, steps: 10_000, fraction: 0.28 });
 }

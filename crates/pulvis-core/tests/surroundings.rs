@@ -192,3 +192,60 @@ fn a_powder_that_is_heated_loses_energy_thermally_and_goes_on_from_a_state_with_
     assert_eq!(states(&continued), states(&powder));
     assert_eq!(continued.ledger(), ledger);
 }
+
+#[test]
+fn the_liquid_of_two_grains_holds_them_as_far_as_its_bridge_reaches() {
+    let values = Values::new().with("liquid_share", 0.1).with("surface_tension", 0.072);
+    let mut model = elastic();
+    model.laws.noncontact = NonContact::build("liquid-bridge", &values).unwrap().unwrap();
+    // A pair that touches and parts, and a dry one beside it: V = 0.1 (V_i + V_j) = 1e-13 m³, S_c = V^(1/3).
+    let rupture = 4.641_588_833_612_779e-5;
+    let at = |x: f64, y: f64, speed: f64| sphere(vector(x, y, 0.0), vector(speed, 0.0, 0.0), RADIUS);
+    let pairs = |gap: f64, speed: f64| {
+        let x = RADIUS + 0.5 * gap;
+        vec![
+            at(-x, 0.0, speed),
+            at(x, 0.0, -speed),
+            at(-x, 10.0 * RADIUS, speed),
+            at(x, 10.0 * RADIUS, -speed),
+        ]
+    };
+    let mut setup = setup(pairs(-1e-9, 0.0), model);
+    setup.time_step = 1e-7;
+    let liquid = |values: [f64; 4]| vec![column("liquid", "m^3", values.to_vec())];
+    let mut grains = Simulation::with_columns(setup.clone(), liquid([1e-12, 0.0, 0.0, 0.0])).unwrap();
+    // R_w is the radius of equal spheres; with a spring that pushes by 1000 N/m over 1 nm.
+    let strength = std::f64::consts::TAU * 0.072 * RADIUS;
+    let force =
+        |grains: &Simulation, id: usize| grains.particles().forces()[grains.particles().rows_by_id()[id]].x;
+    assert!((force(&grains, 0) / (strength - 1e-6) - 1.0).abs() < 1e-9, "{}", force(&grains, 0));
+    assert!((force(&grains, 2) / -1e-6 - 1.0).abs() < 1e-6, "{}", force(&grains, 2));
+    let start = grains.ledger();
+    assert!(start.capillary < 0.0);
+    // Twice the liquid: the bridge of the moment has another potential, which is booked.
+    grains.set_column(liquid([2e-12, 0.0, 0.0, 0.0]).remove(0)).unwrap();
+    let doubled = grains.ledger();
+    assert!(doubled.capillary < start.capillary);
+    assert!((doubled.switched / (doubled.capillary - start.capillary) - 1.0).abs() < 1e-3, "{doubled:?}");
+    let refused = grains.set_column(liquid([-1e-12, 0.0, 0.0, 0.0]).remove(0)).unwrap_err();
+    assert!(refused.to_string().contains("expected >= 0"), "{refused}");
+    assert_eq!(grains.ledger(), doubled);
+    // The way apart: it pulls up to the rupture distance, and not beyond.
+    setup.particles = pairs(-1e-9, -0.5);
+    let mut grains = Simulation::with_columns(setup, liquid([0.0, 1e-12, 0.0, 0.0])).unwrap();
+    let mut pulled = 0.0_f64;
+    for _ in 0..2000 {
+        grains.step().unwrap();
+        let rows = grains.particles().rows_by_id();
+        let positions = grains.particles().positions();
+        let gap = (positions[rows[1]] - positions[rows[0]]).norm() - 2.0 * RADIUS;
+        if force(&grains, 0) > 0.0 {
+            pulled = pulled.max(gap);
+        }
+        assert!(force(&grains, 2) <= 0.0, "the dry pair");
+    }
+    // Within the step in which it breaks: 1e-7 s at 1 m/s.
+    assert!((pulled / rupture - 1.0).abs() < 1e-7 / rupture, "{pulled} {rupture}");
+    let ledger = grains.ledger();
+    assert!(ledger.relative_error().abs() < 1e-4 && ledger.capillary == 0.0, "{ledger:?}");
+}

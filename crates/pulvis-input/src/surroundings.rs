@@ -47,7 +47,7 @@ impl Surroundings {
 
     /// The contact knowing how large the quantities are.
     pub(crate) fn bound(&self, contact: &ContactModel) -> ContactModel {
-        contact.bounded_by(|name| self.values(name).into_iter().map(f64::abs).fold(0.0, f64::max))
+        contact.bounded_by(|name| self.values(name).into_iter().collect())
     }
 }
 

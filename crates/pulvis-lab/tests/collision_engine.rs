@@ -80,7 +80,7 @@ fn largest_and_sticking_overlap_fall_at_second_order() {
 }
 
 #[test]
-fn with_a_dashpot_that_jumps_at_touch_the_error_falls_at_first_order() {
+fn a_dashpot_that_jumps_where_the_bodies_touch_and_part_costs_no_order() {
     let row = rows().into_iter().find(|row| row.is("11", "e") && row.number("gamma0") > 0.0).unwrap();
     let base = row.case();
     let cases: Vec<_> = [0.1, 0.2, 0.3]
@@ -88,7 +88,8 @@ fn with_a_dashpot_that_jumps_at_touch_the_error_falls_at_first_order() {
         .map(|chi| CollisionCase { velocity: base.velocity * chi, ..base.clone() })
         .collect();
     let order = order(&cases, |collision| collision.outcome.restitution);
-    assert!((0.85..1.5).contains(&order), "order {order}");
+    // The steps of these events are weighted.
+    assert!(order > 1.8, "order {order}");
 }
 
 #[test]

@@ -10,6 +10,7 @@ use pulvis_input::collision::CollisionScenario;
 use pulvis_input::probe::ProbeScenario;
 use pulvis_lab::collision::sweep;
 use pulvis_lab::probe::probe;
+use pulvis_lab::protocol::{Sticking, preflight};
 
 const SINTER: &str = "\
 law = \"sinter-luding\"
@@ -111,4 +112,50 @@ fn a_run_writes_its_temperature_and_the_energies_of_charges_and_heat() {
     let record = std::fs::read_to_string(folder.path().join("run.toml")).unwrap();
     let again = scenario(&record);
     assert_eq!(again.temperature, scenario(&text).temperature);
+}
+
+/// One grain each of two materials; `columns` are those of both.
+fn two_grains(contact: &str, columns: [&str; 2]) -> String {
+    let group = |name: &str, x: &str, columns: &str| {
+        format!(
+            "[[particles]]\nmaterial = \"{name}\"\nradius = {{ distribution = \"fixed\", value = \"1 mm\" }}\n\
+             arrangement = {{ kind = \"list\", positions = [[\"{x}\", \"0 mm\", \"0 mm\"]] }}\n{columns}\n"
+        )
+    };
+    format!(
+        "[materials.one]\ndensity = \"2500 kg/m^3\"\n[materials.other]\ndensity = \"2500 kg/m^3\"\n\
+         [contacts.one-other.normal]\nlaw = \"walton-braun\"\nk1 = \"1 N/m\"\nk2 = \"1.2345679 N/m\"\n{contact}\n\
+         {}{}[[stages]]\nname = \"rest\"\nuntil = {{ time = \"1 ms\" }}\n",
+        group("one", "-2 mm", columns[0]),
+        group("other", "2 mm", columns[1])
+    )
+}
+
+#[test]
+fn a_check_finds_the_sticking_speed_with_the_charges_of_the_grains() {
+    let contact = "[contacts.one-other.noncontact]\nlaw = \"coulomb\"\ncutoff = \"2 mm\"";
+    let sticking = |charges: [&str; 2]| {
+        let columns = charges.map(|charge| format!("columns = {{ charge = \"{charge}\" }}"));
+        let text = two_grains(contact, [&columns[0], &columns[1]]);
+        preflight(&scenario(&text)).unwrap().contacts.remove(0).sticking
+    };
+    let Sticking::Computed(ranges) = sticking(["10 pC", "-10 pC"]) else { panic!("not computed") };
+    // As above, 3.173 mm/s; the attraction also acts while the bodies overlap, by a percent more.
+    assert!(ranges.len() == 1 && (ranges[0][1] / 3.173e-3 - 1.0).abs() < 2e-2, "{ranges:?}");
+}
+
+#[test]
+fn a_check_names_bonds_that_are_overdamped() {
+    let warnings = |time: &str| {
+        let bond = format!(
+            "[contacts.one-other.bond]\nlaw = \"elastic-brittle\"\nform = \"first-touch\"\nnormal_stiffness = \"1e3 N/m\"\n\
+             shear_stiffness = \"500 N/m\"\ntensile_strength = \"1e-3 N\"\ndamping_time = \"{time}\""
+        );
+        preflight(&scenario(&two_grains(&bond, [""; 2]))).unwrap().warnings
+    };
+    // Along the bond τ k/(2 √(k m_r)) = τ √(k/m_r)/2 with m_r = 5.236 mg: 1 at 0.145 ms.
+    let of_bonds =
+        |time: &str| warnings(time).into_iter().filter(|text| text.contains("of the bond")).count();
+    assert_eq!([of_bonds("0.05 ms"), of_bonds("0.4 ms")], [0, 2], "{:?}", warnings("0.4 ms"));
+    assert!(warnings("0.4 ms").iter().any(|text| text.contains("of the bond along it is 2.76 times")));
 }

@@ -82,7 +82,8 @@ fn random_values(entry: &LawEntry, draw: &mut Draw) -> Values {
             Kind::Choice(options) => Value::Choice(draw.one_of(options).name.to_owned()),
             Kind::Number { range, may_be_infinite, .. } => {
                 let center = center(parameter, &around);
-                Value::Number(random_number(range, may_be_infinite, center, &values, draw))
+                let alike = values_alike(entry, parameter, &values);
+                Value::Number(random_number(range, may_be_infinite, center, &alike, draw))
             }
         };
         values.set(parameter.name, chosen);
@@ -97,7 +98,19 @@ fn center(parameter: &Parameter, around: &Values) -> f64 {
     }
 }
 
-fn random_number(range: Range, may_be_infinite: bool, center: f64, others: &Values, draw: &mut Draw) -> f64 {
+/// The numbers among `values` that have the dimension of a parameter.
+fn values_alike(entry: &LawEntry, parameter: &Parameter, values: &Values) -> Vec<f64> {
+    let unit = parameter.unit();
+    let number = |(name, value): (&str, &Value)| match value {
+        Value::Number(number) if entry.parameter(name).is_some_and(|other| other.unit() == unit) => {
+            Some(*number)
+        }
+        _ => None,
+    };
+    values.iter().filter_map(number).collect()
+}
+
+fn random_number(range: Range, may_be_infinite: bool, center: f64, others: &[f64], draw: &mut Draw) -> f64 {
     if may_be_infinite && draw.chance(0.2) {
         return f64::INFINITY;
     }
@@ -108,15 +121,8 @@ fn random_number(range: Range, may_be_infinite: bool, center: f64, others: &Valu
             Range::Any | Range::Positive => {}
         }
     }
-    let equal: Vec<f64> = others
-        .iter()
-        .filter_map(|(_, value)| match value {
-            Value::Number(number) if range.holds(*number) && (number.is_finite() || may_be_infinite) => {
-                Some(*number)
-            }
-            _ => None,
-        })
-        .collect();
+    let fits = |number: &f64| range.holds(*number) && (number.is_finite() || may_be_infinite);
+    let equal: Vec<f64> = others.iter().copied().filter(fits).collect();
     if !equal.is_empty() && draw.chance(0.1) {
         return *draw.one_of(&equal);
     }
@@ -167,6 +173,8 @@ pub fn with_random_quantities(
         let Kind::Number { dimension, range, .. } = quantity.kind else { panic!("no number: {quantity:?}") };
         let size = if dimension == Dimension::LENGTH {
             length * draw.log_between(1e-5, 0.05)
+        } else if dimension == Dimension::VOLUME {
+            length * length * length * draw.log_between(1e-6, 1e-2)
         } else if dimension == Dimension::CHARGE {
             draw.log_between(1e-13, 1e-10)
         } else {

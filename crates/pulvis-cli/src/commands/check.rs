@@ -214,6 +214,9 @@ fn describe_contact(text: &mut String, contact: &ContactForecast) {
         Sticking::Computed(ranges) => {
             writeln!(text, "{:<17} {}, head on, by collisions", "", computed_sticking(ranges))
         }
+        Sticking::Varied(quantity) => {
+            writeln!(text, "{:<17} whether pairs stick depends on their {quantity}, which differs", "")
+        }
         Sticking::Unknown => Ok(()),
     };
 }

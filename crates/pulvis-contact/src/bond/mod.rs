@@ -73,6 +73,11 @@ impl Bond {
         self.springs.stiffness(radii[0] + radii[1], springs::smaller(radii))
     }
 
+    /// The coefficients of the dashpots of such a bond: along it [kg/s], across it [kg/s], of bending and of torsion [N m s].
+    pub fn dashpots_at_touch(&self, radii: [f64; 2]) -> [f64; 4] {
+        self.springs.dashpots(&self.stiffness_at_touch(radii))
+    }
+
     /// The name and the number of what the bond does at an overlap [m]; zero is the number of a bond that does not act.
     /// The bond's memory begins at the column `start`.
     pub fn branch(&self, radii: [f64; 2], overlap: f64, columns: &[f64], start: usize) -> (u8, &'static str) {

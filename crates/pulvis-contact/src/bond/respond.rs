@@ -18,7 +18,7 @@ const OUT_OF_RANGE: f64 = 1e6;
 pub struct BondResponse<R: Real> {
     /// Force on i along the normal, repulsion positive [N].
     pub normal_force: R,
-    /// The part of it that stands for the time before breaking, in the step of it [N].
+    /// The part of it that is there only because the bond formed or broke within the step [N].
     pub event_force: R,
     /// Force on i [N].
     pub force: Vector3<R>,
@@ -149,7 +149,7 @@ impl Bond {
         let step = BondStep::new(inputs, memory, forms, self.springs.at_mid_length());
         let end = step.before_end(zero);
         let breaks = intact & self.criterion.exceeded(&end.loads(&stiffness, harmonic));
-        let (mut stretch, mut weight) = (end, R::one());
+        let (mut stretch, mut weight) = (end, step.dashpots);
         if breaks.any() {
             let breaking = self.breaking(&step, &stiffness, harmonic, inputs.time_step, forms);
             response.dissipated = breaking.stored.keep_where(breaks);
@@ -158,7 +158,7 @@ impl Bond {
         }
         response.stored_energy = end.energy(&stiffness).keep_where(intact & !breaks);
         self.answer(inputs, &stiffness, &stretch, (intact, weight), response);
-        response.event_force = response.normal_force.keep_where(breaks);
+        response.event_force = R::select(breaks, response.normal_force, response.event_force);
         let springs = intact & !breaks;
         memory.shear = end.shear.keep_where(springs);
         memory.bending = end.bending.keep_where(springs);
@@ -207,7 +207,9 @@ impl Bond {
             let slip = motion.velocity.tangential_to(normal) + normal.cross(turn_i * arm_i + turn_j * arm_j);
             let turning = turn_i - turn_j;
             let (twists, bends) = (turning.dot(normal), turning.tangential_to(normal));
-            along += weight * dashpot * closing;
+            let viscous = dashpot * closing;
+            along += weight * viscous;
+            response.event_force = ((weight - R::one()) * viscous).keep_where(intact);
             shear -= slip * (weight * of_shear);
             bending -= bends * (weight * of_bending);
             torsion -= weight * of_torsion * twists;

@@ -20,6 +20,9 @@ pub(super) struct BondStep<R: Real> {
     /// Overlap now, and its growth in the step [m].
     overlap: R,
     growth: R,
+    /// How dashpots of bonds that formed as the bodies met in this step act at its end: as forces that set in within it,
+    /// see [`events`](crate::events); one of all others.
+    pub(super) dashpots: R,
 }
 
 /// The springs of a bond at an instant.
@@ -61,11 +64,13 @@ impl<R: Real> BondStep<R> {
         let dt = R::splat(time_step);
         let opening = motion.velocity_mid.dot(normal);
         let growth = opening * R::splat(-time_step);
-        let mut elapsed = dt;
+        let (mut elapsed, mut dashpots) = (dt, R::one());
         if forms.any() {
             let met = forms & growth.gt(motion.overlap);
+            let part = motion.overlap / growth;
             elapsed = R::select(forms, R::zero(), elapsed);
-            elapsed = R::select(met, dt * (motion.overlap / growth), elapsed);
+            elapsed = R::select(met, dt * part, elapsed);
+            dashpots = R::select(met, part + half, dashpots);
         }
         let half_time = half * elapsed;
         let half_turn = half_time * motion.inverse_distance;
@@ -101,6 +106,7 @@ impl<R: Real> BondStep<R> {
             twist: normal_mid.dot(turning) * elapsed,
             overlap: motion.overlap,
             growth,
+            dashpots,
         }
     }
 

@@ -262,7 +262,8 @@ pub struct LawEntry {
     /// The parameters, in the order of the documentation.
     pub parameters: &'static [Parameter],
     /// Quantities of each particle that it reads, numbers that have a column of this name; at most
-    /// [`MOST_QUANTITIES`](crate::pair::MOST_QUANTITIES). Laws along the line of centres only.
+    /// [`MOST_QUANTITIES`](crate::pair::MOST_QUANTITIES). Laws along the line of centres only. One that is optional is
+    /// read where the parameters say so.
     pub particle_quantities: &'static [Parameter],
     /// The columns of memory that each contact carries, with their units.
     pub memory: &'static [&'static str],

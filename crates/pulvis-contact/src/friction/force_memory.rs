@@ -14,6 +14,11 @@ use super::{FrictionResponse, SpringMotion, Tangent};
 pub(super) trait Spring<R: Real> {
     /// Slope dT/ds of the force over this step [N/m].
     fn stiffness(&self) -> R;
+    /// Where the force is no straight line over the displacement at a fixed contact; `None` of springs for which it is.
+    #[inline(always)]
+    fn is_curved(&self) -> Option<R::Mask> {
+        None
+    }
     /// T²/(2 E(T)) [N/m] from T² [N²]: by how much energy a force is held. Where the stiffness does not depend on the
     /// force, it is the stiffness.
     fn secant(&self, square: R) -> R;
@@ -111,7 +116,11 @@ impl<R: Real, S: Spring<R>> SeriesSlider<R, S> {
             viscous_power = quotient(damping.norm_squared(), dashpot);
         }
         // Gross sliding forgets what is locked in; an open contact forgets all.
-        let own = half * after.norm_squared() * flexibility;
+        let mut own = half * after.norm_squared() * flexibility;
+        if let Some(curved) = self.spring.is_curved() {
+            // Where the chord of the step has given less than the curve holds: nothing comes from nothing.
+            own = R::select(curved & stored.gt(R::zero()), own.min(stored), own);
+        }
         let kept = R::select(slips, own, stored).keep_where(motion.in_contact);
         lost += stored - kept;
         // An open contact has no area: it gives up its force without slipping.

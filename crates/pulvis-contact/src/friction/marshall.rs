@@ -1,10 +1,11 @@
 //! Torsion of elastic spheres: the resistance of a contact area against twisting.
 
-use pulvis_math::{Dimension, Real};
+use pulvis_math::Real;
 
 use super::force_memory::{Linear, SeriesSlider};
+use super::parameters::{EFFECTIVE_SHEAR_MODULUS, GAMMA_T, MU};
 use super::{ContactScale, FrictionLaw, FrictionResponse, SpringMotion, Tangent};
-use crate::catalogue::{InvalidParameter, LawEntry, Parameter, Range, Role, Values, mixing};
+use crate::catalogue::{InvalidParameter, LawEntry, Role, Values};
 
 /// Twisting of the contact area: stiffness, dashpot and limit are those of sliding, summed over the area.
 ///
@@ -38,25 +39,7 @@ dM  = (k a²/2) dφ,  k = 8 G* a    moment M of the twist φ; a: radius of the c
 M_v = (γ_t a²/2) dφ/dt            dashpot, in series with the slider
 |M| ≤ (2/3) a μ N                 N: F of `hertz`, F + 2 F_c of `jkr`",
     source: "Marshall, J. Comput. Phys. 228, 1541 (2009), section 2.5; the original was not at hand (certainty B)",
-    parameters: &[
-        Parameter::number(
-            "effective_shear_modulus",
-            "G*",
-            Dimension::PRESSURE,
-            Range::Positive,
-            "effective shear modulus, 1/G* = (2 − ν_i)/G_i + (2 − ν_j)/G_j",
-        )
-        .from_materials(&mixing::EFFECTIVE_SHEAR_MODULUS),
-        Parameter::number("mu", "μ", Dimension::NONE, Range::NonNegative, "coefficient of sliding friction"),
-        Parameter::number(
-            "gamma_t",
-            "γ_t",
-            Dimension::DASHPOT,
-            Range::NonNegative,
-            "coefficient of the tangential dashpot",
-        )
-        .or(0.0),
-    ],
+    parameters: &[EFFECTIVE_SHEAR_MODULUS, MU, GAMMA_T],
     particle_quantities: &[],
     memory: &["torsion_force [N]", "torsion_energy [J]"],
     closed_form: "frequency of the torsion oscillation, √(4 G* a³ (1/I_i + 1/I_j)), and closed cycles of pressing and twisting cost work",

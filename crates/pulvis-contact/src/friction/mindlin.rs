@@ -1,10 +1,11 @@
 //! The tangential law of Mindlin for elastic spheres, with a memory that creates no energy.
 
-use pulvis_math::{Dimension, Real};
+use pulvis_math::Real;
 
 use super::force_memory::{Linear, SeriesSlider};
+use super::parameters::{EFFECTIVE_SHEAR_MODULUS, GAMMA_T, MU};
 use super::{ContactScale, FrictionLaw, FrictionResponse, SpringMotion, Tangent};
-use crate::catalogue::{Choice, InvalidParameter, LawEntry, Parameter, Range, Role, Values, mixing};
+use crate::catalogue::{Choice, InvalidParameter, LawEntry, Parameter, Role, Values};
 
 /// Tangential stiffness k = 8 G* a that follows the radius a of the contact area, with a Coulomb limit.
 ///
@@ -51,23 +52,9 @@ dT  = 8 G* a ds                  tangential force T of the displacement s
 |f| ≤ μ N                        N: F of `hertz`, F + 2 F_c of `jkr`",
     source: "Mindlin, J. Appl. Mech. 16, 259 (1949); Johnson, Contact Mechanics (1985), eq. 7.44",
     parameters: &[
-        Parameter::number(
-            "effective_shear_modulus",
-            "G*",
-            Dimension::PRESSURE,
-            Range::Positive,
-            "effective shear modulus, 1/G* = (2 − ν_i)/G_i + (2 − ν_j)/G_j",
-        )
-        .from_materials(&mixing::EFFECTIVE_SHEAR_MODULUS),
-        Parameter::number("mu", "μ", Dimension::NONE, Range::NonNegative, "coefficient of sliding friction"),
-        Parameter::number(
-            "gamma_t",
-            "γ_t",
-            Dimension::DASHPOT,
-            Range::NonNegative,
-            "coefficient of the tangential dashpot",
-        )
-        .or(0.0),
+        EFFECTIVE_SHEAR_MODULUS,
+        MU,
+        GAMMA_T,
         Parameter::choice(
             "rescale",
             "",

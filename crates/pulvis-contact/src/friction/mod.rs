@@ -13,6 +13,7 @@ mod force_memory;
 mod marshall;
 pub mod mindlin;
 mod none;
+mod parameters;
 mod rotation;
 mod spring_slider;
 mod tangent;

@@ -1,12 +1,14 @@
 //! Tangential force of adhesive elastic spheres, whose contact area peels as it is sheared.
 
-use pulvis_math::{Dimension, Mask, Real};
+use pulvis_math::{Mask, Real};
 
 use super::force_memory::{SeriesSlider, Spring, quotient};
+use super::parameters::{EFFECTIVE_SHEAR_MODULUS, GAMMA_T, MU};
 use super::{ContactScale, FrictionLaw, FrictionResponse, SpringMotion, Tangent};
-use crate::catalogue::{InvalidParameter, LawEntry, Parameter, Range, Role, Values, mixing};
+use crate::catalogue::{InvalidParameter, LawEntry, Role, Values};
 use crate::functions::cbrt_near_one;
 use crate::memory::Memory;
+use crate::normal::EFFECTIVE_MODULUS;
 
 /// A tangential force T peels the neck of the law of JKR, until at T_c the peeling is complete and the contact slides.
 ///
@@ -17,7 +19,9 @@ use crate::memory::Memory;
 /// T    ≤ max(T_c, μ (P + 2 F_c)) before peeling is complete,  μ (P + 2 F_c) afterwards
 /// ```
 ///
-/// P is the normal force, F_c the pull-off force that the normal law knows; without one (`hertz`) this is `mindlin`.
+/// P is the normal force, F_c the pull-off force of the neck that the normal law knows (`jkr`, `viscoelastic-jkr`,
+/// `thornton-ning`). Laws without a neck (`hertz`, `dmt`) have nothing to peel: with them this is `mindlin`, whose limit is μ
+/// times what the normal law names, F + 2 π Γ R of `dmt`.
 /// While P is constant the force is elastic, with the energy E(T) = ∫ T dT/(8 G* a_T) in closed form. When P falls, E
 /// of a given force grows. As in `mindlin` the memory is T and an energy U ≥ E(T), and T falls as far as U demands.
 ///
@@ -48,33 +52,7 @@ a_T³ = (3 R/(4 E*)) (P + 2 F_c + √(4 P F_c + 4 F_c² − T² E*/(4 G*)))
 T_c  = 4 √((P F_c + F_c²) G*/E*)    where peeling is complete
 T    ≤ max(T_c, μ (P + 2 F_c))      before that;  T ≤ μ (P + 2 F_c) afterwards",
     source: "Thornton & Yin, Powder Technol. 65, 153 (1991); the original was not at hand, and that peeling does not heal before the contact opens is our choice (certainty B)",
-    parameters: &[
-        Parameter::number(
-            "effective_shear_modulus",
-            "G*",
-            Dimension::PRESSURE,
-            Range::Positive,
-            "effective shear modulus, 1/G* = (2 − ν_i)/G_i + (2 − ν_j)/G_j",
-        )
-        .from_materials(&mixing::EFFECTIVE_SHEAR_MODULUS),
-        Parameter::number(
-            "effective_modulus",
-            "E*",
-            Dimension::PRESSURE,
-            Range::Positive,
-            "effective modulus, 1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j",
-        )
-        .from_materials(&mixing::EFFECTIVE_MODULUS),
-        Parameter::number("mu", "μ", Dimension::NONE, Range::NonNegative, "coefficient of sliding friction"),
-        Parameter::number(
-            "gamma_t",
-            "γ_t",
-            Dimension::DASHPOT,
-            Range::NonNegative,
-            "coefficient of the tangential dashpot",
-        )
-        .or(0.0),
-    ],
+    parameters: &[EFFECTIVE_SHEAR_MODULUS, EFFECTIVE_MODULUS, MU, GAMMA_T],
     particle_quantities: &[],
     memory: &[
         "tangential_force_x [N]",
@@ -165,6 +143,11 @@ impl<R: Real> Neck<R> {
 }
 
 impl<R: Real> Spring<R> for Neck<R> {
+    #[inline(always)]
+    fn is_curved(&self) -> Option<R::Mask> {
+        Some(self.square.gt(R::zero()))
+    }
+
     #[inline(always)]
     fn stiffness(&self) -> R {
         self.stiffness

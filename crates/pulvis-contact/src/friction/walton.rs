@@ -3,6 +3,7 @@
 use pulvis_math::{Dimension, Mask, Real, elementary};
 
 use super::force_memory::quotient;
+use super::parameters::MU;
 use super::{ContactScale, FrictionLaw, FrictionResponse, SpringMotion, Tangent};
 use crate::catalogue::{Choice, InvalidParameter, LawEntry, Parameter, Range, Role, Values};
 use crate::functions::cbrt;
@@ -71,7 +72,7 @@ published  dT/ds = K₀ (1 − (T − T*)/(μ N − T*))^g   along T,  T* = T wh
             "how the stiffness falls with the force",
         )
         .or(1.0 / 3.0),
-        Parameter::number("mu", "μ", Dimension::NONE, Range::NonNegative, "coefficient of sliding friction"),
+        MU,
         Parameter::choice(
             "variant",
             "",

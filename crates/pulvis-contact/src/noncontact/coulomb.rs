@@ -2,11 +2,11 @@
 
 use pulvis_math::{Dimension, Mask, Real};
 
-use super::{NonContactLaw, NonContactResponse};
+use super::{NonContactLaw, NonContactResponse, branch_by_distance};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
 use crate::energy::AttractionAccount;
 use crate::kinematics::NormalMotion;
-use crate::pair::Pair;
+use crate::pair::{Pair, Sizes};
 
 /// Force K (1/r² − 1/r_c²), K = q_i q_j/(4 π ε_0), of charges in the centres of two spheres at the distance r, shifted so
 /// that it and its potential K (r_c − r)²/(r r_c²) end without a jump at r_c = a_i + a_j + s_c; constant in contact. Walls
@@ -104,8 +104,8 @@ impl NonContactLaw for Coulomb {
         2.0 * COULOMB_CONSTANT * charges / (radii * radii * radii)
     }
 
-    fn bounded_by(self, largest: &dyn Fn(&str) -> f64) -> Self {
-        Self { largest_charge: largest(CHARGE), ..self }
+    fn bounded_by(self, sizes: &dyn Fn(&str) -> Sizes) -> Self {
+        Self { largest_charge: sizes(CHARGE).largest, ..self }
     }
 
     fn acts_on_approach(&self) -> bool {
@@ -113,12 +113,6 @@ impl NonContactLaw for Coulomb {
     }
 
     fn branch(&self, _pair: &Pair<f64>, overlap: f64, _memory: &()) -> (u8, &'static str) {
-        if overlap > 0.0 {
-            (2, "in contact")
-        } else if overlap > -self.cutoff {
-            (1, "charged")
-        } else {
-            (0, "out of reach")
-        }
+        branch_by_distance(overlap, self.cutoff, "charged")
     }
 }

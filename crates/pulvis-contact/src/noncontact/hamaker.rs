@@ -2,7 +2,7 @@
 
 use pulvis_math::{Dimension, Mask, Real};
 
-use super::{NonContactLaw, NonContactResponse};
+use super::{NonContactLaw, NonContactResponse, branch_by_distance};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
 use crate::kinematics::NormalMotion;
 use crate::pair::Pair;
@@ -29,6 +29,17 @@ pub struct Hamaker {
 /// Below so many z0 the cutoff takes a fifth of the work of adhesion.
 const LEAST_CUTOFF: f64 = 10.0;
 
+pub(crate) const HAMAKER: Parameter =
+    Parameter::number("hamaker", "A_H", Dimension::ENERGY, Range::Positive, "Hamaker constant");
+
+pub(crate) const Z0: Parameter = Parameter::number(
+    "z0",
+    "z0",
+    Dimension::LENGTH,
+    Range::Positive,
+    "distance of surfaces in contact, 0.16 to 0.4 nm",
+);
+
 impl Law for Hamaker {
     const ENTRY: LawEntry = LawEntry {
         role: Role::NonContact,
@@ -39,14 +50,8 @@ f   = −(A_H R/6) [1/(s + z0)² − 1/(s_c + z0)²]     for s < s_c,  s = max(�
 U   = −(A_H R/6) (s_c − s)²/((s + z0) (s_c + z0)²) for δ ≤ 0,  U(0) + f(0) δ in contact",
         source: "Hamaker, Physica 4, 1058 (1937), near contact, force shifted to zero at the cutoff",
         parameters: &[
-            Parameter::number("hamaker", "A_H", Dimension::ENERGY, Range::Positive, "Hamaker constant"),
-            Parameter::number(
-                "z0",
-                "z0",
-                Dimension::LENGTH,
-                Range::Positive,
-                "distance of surfaces in contact, 0.16 to 0.4 nm",
-            ),
+            HAMAKER,
+            Z0,
             Parameter::number(
                 "cutoff",
                 "s_c",
@@ -115,13 +120,7 @@ impl NonContactLaw for Hamaker {
     }
 
     fn branch(&self, _pair: &Pair<f64>, overlap: f64, _memory: &()) -> (u8, &'static str) {
-        if overlap > 0.0 {
-            (2, "in contact")
-        } else if overlap > -self.cutoff {
-            (1, "attraction")
-        } else {
-            (0, "out of reach")
-        }
+        branch_by_distance(overlap, self.cutoff, "attraction")
     }
 }
 

@@ -4,13 +4,14 @@ use pulvis_math::Real;
 
 use super::{NonContactLaw, NonContactResponse, linear_tail, reversible};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Role, Values};
+use crate::events;
 use crate::kinematics::NormalMotion;
 use crate::pair::Pair;
 
 /// Attraction that is absent on approach, jumps to −f_a at touch, and on separation fades linearly
 /// down to δ_a = −f_a/k_c^a. The pair remembers the touch until it is out of reach; coming together
 /// again it starts anew. The energy f_a²/(2 k_c^a) that separation will cost is booked as adhesive
-/// dissipation at the jump.
+/// dissipation at the jump. A step in which the force jumps applies it for the part of the step in which it acted.
 ///
 /// # Source
 /// A. Singh, V. Magnanimo, S. Luding, arXiv:1503.03720 ("S1"), eq. (15); the branch followed on
@@ -68,9 +69,17 @@ impl NonContactLaw for JumpIn {
         memory[0] = R::one().keep_where(now);
         let sudden = R::splat(0.5 * self.f_a * self.range());
         let force = force.keep_where(now);
+        // Bodies that overlapped already, in a first look, met before this step.
+        let meets = now & !before & !motion.touched_before();
+        let mut applied_force = R::select(meets, events::sets_in(motion, R::zero(), force), force);
+        if self.range() <= 0.0 {
+            let parts = before & !now;
+            let last = R::splat(-self.f_a);
+            applied_force = R::select(parts, events::ends(motion, R::zero(), last), applied_force);
+        }
         NonContactResponse {
             force,
-            applied_force: force,
+            applied_force,
             potential: potential.keep_where(now),
             dissipated: sudden.keep_where(now & !before),
         }

@@ -6,7 +6,7 @@ use crate::catalogue::{InvalidParameter, Law, LawEntry, Values, law_list};
 use crate::energy::AttractionAccount;
 use crate::kinematics::NormalMotion;
 use crate::memory::{self, Columns, Memory};
-use crate::pair::Pair;
+use crate::pair::{Pair, Sizes};
 
 mod coulomb;
 mod hamaker;
@@ -17,6 +17,7 @@ mod reversible;
 
 pub use coulomb::Coulomb;
 pub use hamaker::Hamaker;
+pub(crate) use hamaker::{HAMAKER, Z0};
 pub use jump_in::JumpIn;
 pub use liquid_bridge::LiquidBridge;
 pub use none::None;
@@ -58,9 +59,14 @@ pub trait NonContactLaw: Law {
     /// The steepest slope |df/dδ| [N/m], zero for a force that only jumps.
     fn max_stiffness(&self, pair: &Pair<f64>) -> f64;
 
-    /// The same law knowing the `largest` size of a particle quantity by its name, if its stiffness depends on one.
+    /// Whether this law reads the particle quantities that its description names.
+    fn reads_quantities(&self) -> bool {
+        true
+    }
+
+    /// The same law knowing the sizes of a particle quantity by its name, if its stiffness or its range depends on one.
     #[must_use]
-    fn bounded_by(self, _largest: &dyn Fn(&str) -> f64) -> Self {
+    fn bounded_by(self, _sizes: &dyn Fn(&str) -> Sizes) -> Self {
         self
     }
 
@@ -85,6 +91,18 @@ fn linear_tail<R: Real>(adhesion_force: f64, slope: f64, overlap: R) -> (R, R) {
     let pull = (f_a + R::splat(slope) * overlap).max(R::zero()).min(f_a).keep_where(within_reach);
     let potential = -(R::splat(0.5) * pull * (pull / R::splat(slope))) - f_a * depth;
     (-pull, potential)
+}
+
+/// The branches of a law that acts within a range [m], on approach and on separation alike, and is called `apart` at a
+/// distance.
+fn branch_by_distance(overlap: f64, range: f64, apart: &'static str) -> (u8, &'static str) {
+    if overlap > 0.0 {
+        (2, "in contact")
+    } else if overlap > -range {
+        (1, apart)
+    } else {
+        (0, "out of reach")
+    }
 }
 
 macro_rules! noncontact_laws {
@@ -129,10 +147,15 @@ macro_rules! noncontact_laws {
                 match self { $(Self::$law(law) => law.max_stiffness(pair),)* }
             }
 
+            /// See [`NonContactLaw::reads_quantities`].
+            pub fn reads_quantities(&self) -> bool {
+                match self { $(Self::$law(law) => law.reads_quantities(),)* }
+            }
+
             /// See [`NonContactLaw::bounded_by`].
             #[must_use]
-            pub fn bounded_by(&self, largest: &dyn Fn(&str) -> f64) -> Self {
-                match self { $(Self::$law(law) => Self::$law(law.bounded_by(largest)),)* }
+            pub fn bounded_by(&self, sizes: &dyn Fn(&str) -> Sizes) -> Self {
+                match self { $(Self::$law(law) => Self::$law(law.bounded_by(sizes)),)* }
             }
 
             /// See [`NonContactLaw::acts_on_approach`].

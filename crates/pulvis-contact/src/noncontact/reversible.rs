@@ -2,14 +2,16 @@
 
 use pulvis_math::{Dimension, Real};
 
-use super::{NonContactLaw, NonContactResponse, linear_tail};
+use super::{NonContactLaw, NonContactResponse, branch_by_distance, linear_tail};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
+use crate::events;
 use crate::kinematics::NormalMotion;
 use crate::pair::Pair;
 
 /// Reversible attraction that grows linearly from δ_a = −f_a/k_c^a to contact and is constant in
 /// contact: f = −f_a for δ > 0, −k_c^a δ − f_a for δ_a < δ <= 0, zero beyond. Continuous and
-/// conservative; an infinite k_c^a leaves the constant force in contact alone.
+/// conservative; an infinite k_c^a leaves the constant force in contact alone, which jumps at touch: a step in which it
+/// does applies it for the part of the step in which it acted.
 ///
 /// # Source
 /// A. Singh, V. Magnanimo, S. Luding, arXiv:1503.03720 ("S1"), eq. (14).
@@ -74,7 +76,10 @@ impl NonContactLaw for Reversible {
     #[inline(always)]
     fn respond<R: Real>(&self, motion: &NormalMotion<R>, _memory: &mut ()) -> NonContactResponse<R> {
         let (force, potential) = linear_tail(self.f_a, self.kc_a, motion.overlap);
-        NonContactResponse { force, applied_force: force, potential, dissipated: R::zero() }
+        let jumps = self.range() <= 0.0 && self.f_a > 0.0;
+        let at_touch = R::splat(-self.f_a);
+        let applied_force = if jumps { events::while_touching(motion, force, at_touch) } else { force };
+        NonContactResponse { force, applied_force, potential, dissipated: R::zero() }
     }
 
     fn interaction_range(&self, _pair: &Pair<f64>) -> f64 {
@@ -90,13 +95,7 @@ impl NonContactLaw for Reversible {
     }
 
     fn branch(&self, _pair: &Pair<f64>, overlap: f64, _memory: &()) -> (u8, &'static str) {
-        if overlap > 0.0 {
-            (2, "in contact")
-        } else if overlap > -self.range() {
-            (1, "attraction")
-        } else {
-            (0, "out of reach")
-        }
+        branch_by_distance(overlap, self.range(), "attraction")
     }
 }
 

@@ -41,6 +41,10 @@ forwarded!(
     max_stiffness(pair: Pair, expected: ExpectedLoading) -> f64
 );
 forwarded!(
+    /// See [`NormalLaw::relaxation_rate`].
+    relaxation_rate(pair: Pair, expected: ExpectedLoading) -> f64
+);
+forwarded!(
     /// See [`NormalLaw::expected_contact_radius`].
     expected_contact_radius(pair: Pair, expected: ExpectedLoading) -> f64
 );
@@ -153,6 +157,7 @@ impl<R: Real> NormalSource<R> for Normal {
     const COLUMNS: Option<usize> = None;
     const COMMON: Option<CommonFriction> = None;
     const CURVED: bool = true;
+    const DASHPOT: bool = true;
     type Answer<'a> = NormalResponse<R>;
 
     fn respond<C: Columns<R> + ?Sized>(

@@ -99,3 +99,51 @@ fn largest_root(start: f64, function: impl Fn(f64) -> (f64, f64)) -> f64 {
     }
     root
 }
+
+/// Makes a law of a type whose field `spheres` says all.
+macro_rules! attracted_spheres {
+    ($law:ident) => {
+        impl $crate::normal::NormalLaw for $law {
+            type Memory<R: pulvis_math::Real> = ();
+
+            const PATH_ONLY: bool = false;
+
+            #[inline(always)]
+            fn respond<R: pulvis_math::Real>(
+                &self,
+                motion: &$crate::kinematics::NormalMotion<R>,
+                _memory: &mut (),
+            ) -> $crate::normal::NormalResponse<R> {
+                self.spheres.respond(motion)
+            }
+
+            fn branch(
+                &self,
+                _pair: &$crate::pair::Pair<f64>,
+                overlap: f64,
+                _memory: &(),
+            ) -> (u8, &'static str) {
+                AttractedSpheres::branch(overlap)
+            }
+
+            fn max_stiffness(
+                &self,
+                pair: &$crate::pair::Pair<f64>,
+                expected: &$crate::expected::ExpectedLoading,
+            ) -> f64 {
+                self.spheres.max_stiffness(pair, expected)
+            }
+
+            const STIFFNESS_IS_BOUNDED: bool = false;
+
+            fn expected_contact_radius(
+                &self,
+                pair: &$crate::pair::Pair<f64>,
+                expected: &$crate::expected::ExpectedLoading,
+            ) -> f64 {
+                self.spheres.expected_contact_radius(pair, expected)
+            }
+        }
+    };
+}
+pub(super) use attracted_spheres;

@@ -1,14 +1,11 @@
 //! The law of Dahneke for elastic spheres that van der Waals forces flatten.
 
-use pulvis_math::{Dimension, Real};
+use pulvis_math::Dimension;
 
-use super::attracted_spheres::AttractedSpheres;
+use super::attracted_spheres::{AttractedSpheres, attracted_spheres};
 use super::hertz::EFFECTIVE_MODULUS;
-use super::{NormalLaw, NormalResponse};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
-use crate::expected::ExpectedLoading;
-use crate::kinematics::NormalMotion;
-use crate::pair::Pair;
+use crate::noncontact::{HAMAKER, Z0};
 
 /// Elastic spheres whose van der Waals attraction grows with the flattened area:
 /// F = (4/3) E* √R δ^(3/2) − A_H R/(6 z0²) (1 + c δ/z0) for δ > 0, a = √(R δ).
@@ -38,14 +35,8 @@ U   = (8/15) E* √R δ^(5/2) − F_0 δ (1 + c δ/(2 z0))",
         source: "Dahneke, J. Colloid Interface Sci. 40, 1 (1972); the coefficient c could not be confirmed against the original",
         parameters: &[
             EFFECTIVE_MODULUS,
-            Parameter::number("hamaker", "A_H", Dimension::ENERGY, Range::Positive, "Hamaker constant"),
-            Parameter::number(
-                "z0",
-                "z0",
-                Dimension::LENGTH,
-                Range::Positive,
-                "distance of surfaces in contact, 0.16 to 0.4 nm",
-            ),
+            HAMAKER,
+            Z0,
             Parameter::number(
                 "flattening",
                 "c",
@@ -70,34 +61,14 @@ U   = (8/15) E* √R δ^(5/2) − F_0 δ (1 + c δ/(2 z0))",
     }
 }
 
-impl NormalLaw for Dahneke {
-    type Memory<R: Real> = ();
-
-    const PATH_ONLY: bool = false;
-
-    #[inline(always)]
-    fn respond<R: Real>(&self, motion: &NormalMotion<R>, _memory: &mut ()) -> NormalResponse<R> {
-        self.spheres.respond(motion)
-    }
-
-    fn branch(&self, _pair: &Pair<f64>, overlap: f64, _memory: &()) -> (u8, &'static str) {
-        AttractedSpheres::branch(overlap)
-    }
-
-    fn max_stiffness(&self, pair: &Pair<f64>, expected: &ExpectedLoading) -> f64 {
-        self.spheres.max_stiffness(pair, expected)
-    }
-
-    const STIFFNESS_IS_BOUNDED: bool = false;
-
-    fn expected_contact_radius(&self, pair: &Pair<f64>, expected: &ExpectedLoading) -> f64 {
-        self.spheres.expected_contact_radius(pair, expected)
-    }
-}
+attracted_spheres!(Dahneke);
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kinematics::NormalMotion;
+    use crate::normal::NormalLaw;
+    use crate::pair::Pair;
 
     fn law(modulus: f64, hamaker: f64, z0: f64, flattening: f64) -> Dahneke {
         let attraction = hamaker / (6.0 * z0 * z0);

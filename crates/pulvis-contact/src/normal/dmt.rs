@@ -2,15 +2,11 @@
 
 use std::f64::consts::PI;
 
-use pulvis_math::{Dimension, Real};
+use pulvis_math::Dimension;
 
-use super::attracted_spheres::AttractedSpheres;
+use super::attracted_spheres::{AttractedSpheres, attracted_spheres};
 use super::hertz::EFFECTIVE_MODULUS;
-use super::{NormalLaw, NormalResponse};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
-use crate::expected::ExpectedLoading;
-use crate::kinematics::NormalMotion;
-use crate::pair::Pair;
 
 /// Elastic spheres with a constant pull-off force: F = (4/3) E* √R δ^(3/2) − 2 π Γ R for δ > 0, a = √(R δ).
 ///
@@ -27,14 +23,16 @@ pub struct Dmt {
     spheres: AttractedSpheres,
 }
 
+const fn adhesion(range: Range) -> Parameter {
+    let meaning = "work of adhesion of both surfaces together, 2 γ_s for equal materials (1 J/m² = 1 N/m)";
+    Parameter::number("work_of_adhesion", "Γ", Dimension::STIFFNESS, range, meaning)
+}
+
 /// Work of adhesion Γ of both surfaces together.
-pub(super) const WORK_OF_ADHESION: Parameter = Parameter::number(
-    "work_of_adhesion",
-    "Γ",
-    Dimension::STIFFNESS,
-    Range::Positive,
-    "work of adhesion of both surfaces together, 2 γ_s for equal materials (1 J/m² = 1 N/m)",
-);
+pub(super) const WORK_OF_ADHESION: Parameter = adhesion(Range::Positive);
+
+/// The same of a law that also does without.
+pub(super) const WORK_OF_ADHESION_OR_NONE: Parameter = adhesion(Range::NonNegative).or(0.0);
 
 impl Law for Dmt {
     const ENTRY: LawEntry = LawEntry {
@@ -66,34 +64,14 @@ impl Dmt {
     }
 }
 
-impl NormalLaw for Dmt {
-    type Memory<R: Real> = ();
-
-    const PATH_ONLY: bool = false;
-
-    #[inline(always)]
-    fn respond<R: Real>(&self, motion: &NormalMotion<R>, _memory: &mut ()) -> NormalResponse<R> {
-        self.spheres.respond(motion)
-    }
-
-    fn branch(&self, _pair: &Pair<f64>, overlap: f64, _memory: &()) -> (u8, &'static str) {
-        AttractedSpheres::branch(overlap)
-    }
-
-    fn max_stiffness(&self, pair: &Pair<f64>, expected: &ExpectedLoading) -> f64 {
-        self.spheres.max_stiffness(pair, expected)
-    }
-
-    const STIFFNESS_IS_BOUNDED: bool = false;
-
-    fn expected_contact_radius(&self, pair: &Pair<f64>, expected: &ExpectedLoading) -> f64 {
-        self.spheres.expected_contact_radius(pair, expected)
-    }
-}
+attracted_spheres!(Dmt);
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kinematics::NormalMotion;
+    use crate::normal::NormalLaw;
+    use crate::pair::Pair;
 
     #[test]
     fn the_force_and_the_pull_off_are_those_of_two_published_examples() {

@@ -22,7 +22,7 @@ pub struct Hertz {
     pub effective_modulus: f64,
 }
 
-pub(super) const EFFECTIVE_MODULUS: Parameter = Parameter::number(
+pub(crate) const EFFECTIVE_MODULUS: Parameter = Parameter::number(
     "effective_modulus",
     "E*",
     Dimension::PRESSURE,

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use pulvis_math::{Dimension, Real, elementary};
 
+use super::dmt::WORK_OF_ADHESION_OR_NONE;
 use super::hertz::{effective_radius, expected_overlap};
 use super::{NormalLaw, NormalResponse};
 use crate::catalogue::{InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
@@ -26,7 +27,8 @@ use crate::pair::Pair;
 /// δ_v = A_v^(2/3)/R; relaxation loses (4/(3 R)) (E_0 − E_∞) (δ − δ_v) (A − A_v)/τ >= 0, booked as plastic as also what
 /// the bound of q takes.
 ///
-/// The time step must resolve τ; the time-step estimate knows the stiffness only.
+/// The step of q is exact for A linear in it, whatever its length is against τ: the automatic time step resolves the collision
+/// only.
 ///
 /// # Source
 /// E. H. Lee, J. R. M. Radok, J. Appl. Mech. 27, 438 (1960). The bound and the energies are derived here. The law stands
@@ -88,14 +90,7 @@ a   = √(R δ)                                contact radius;  friction refers 
                 "effective modulus of slow loading, below that of fast loading",
             ),
             Parameter::number("relaxation_time", "τ", Dimension::TIME, Range::Positive, "relaxation time"),
-            Parameter::number(
-                "work_of_adhesion",
-                "Γ",
-                Dimension::STIFFNESS,
-                Range::NonNegative,
-                "work of adhesion of both surfaces together (1 J/m² = 1 N/m)",
-            )
-            .or(0.0),
+            WORK_OF_ADHESION_OR_NONE,
         ],
         particle_quantities: &[],
         memory: &["relaxing [N m]", "depth [m]"],

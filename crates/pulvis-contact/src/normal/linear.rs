@@ -183,6 +183,8 @@ impl NormalLaw for Linear {
         }
     }
 
+    const HAS_DASHPOT: bool = true;
+
     fn dashpot(&self, pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
         self.dashpot_of(pair)
     }

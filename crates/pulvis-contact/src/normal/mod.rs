@@ -30,6 +30,7 @@ mod rathbone;
 mod response;
 mod sinter_luding;
 mod sinter_overlap;
+mod sintering;
 mod thornton_ning;
 mod tomas;
 mod viscoelastic_jkr;
@@ -41,6 +42,7 @@ pub use core_shell::CoreShell;
 pub use dahneke::Dahneke;
 pub use dmt::Dmt;
 pub use eepa::{Eepa, EepaMemory};
+pub(crate) use hertz::EFFECTIVE_MODULUS;
 pub use hertz::Hertz;
 pub use jkr::Jkr;
 pub use kempton::Kempton;
@@ -91,6 +93,9 @@ pub trait NormalLaw: Law + Listed {
         0.0
     }
 
+    /// Whether the law has a dashpot of its own.
+    const HAS_DASHPOT: bool = false;
+
     /// Whether no closed path gains energy from the law. A published form that creates energy says no: its losses may be
     /// negative, and it may apply a force of the rate beside its dashpot.
     fn is_passive(&self) -> bool {
@@ -113,6 +118,12 @@ pub trait NormalLaw: Law + Listed {
     /// Whether the force depends on the rate or on time beside what [`dashpot`](Self::dashpot) says: then a path without
     /// times says too little.
     const DEPENDS_ON_TIME: bool = false;
+
+    /// The largest rate [1/s] at which the contact changes at rest, of those that a time step must resolve; zero where steps
+    /// of any length do it right.
+    fn relaxation_rate(&self, _pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
+        0.0
+    }
 
     /// Whether the law reads the temperature, which must then be given.
     const NEEDS_TEMPERATURE: bool = false;
@@ -156,6 +167,8 @@ pub trait NormalSource<R: Real> {
     const COMMON: Option<CommonFriction>;
     /// Whether the contact may be one with a curved wall.
     const CURVED: bool;
+    /// Whether the law may have a dashpot of its own.
+    const DASHPOT: bool;
     /// The answer, or where it stands. What stands in memory is better read where it is used than copied into registers
     /// that a loop does not have.
     type Answer<'a>: Borrow<NormalResponse<R>>
@@ -173,6 +186,7 @@ impl<R: Real, N: NormalLaw> NormalSource<R> for Inlined<N> {
     const COLUMNS: Option<usize> = Some(<N::Memory<f64> as Memory<f64>>::COLUMNS);
     const COMMON: Option<CommonFriction> = Some(N::COMMON_SLIDING);
     const CURVED: bool = false;
+    const DASHPOT: bool = N::HAS_DASHPOT;
     type Answer<'a>
         = NormalResponse<R>
     where
@@ -196,6 +210,7 @@ impl<R: Real, const CURVED: bool> NormalSource<R> for Computed<'_, R, CURVED> {
     const COLUMNS: Option<usize> = None;
     const COMMON: Option<CommonFriction> = None;
     const CURVED: bool = CURVED;
+    const DASHPOT: bool = true;
     type Answer<'b>
         = &'b NormalResponse<R>
     where

@@ -166,6 +166,8 @@ impl NormalLaw for ViscoelasticJkr {
         self.elastic.interaction_range(pair)
     }
 
+    const HAS_DASHPOT: bool = true;
+
     fn dashpot(&self, pair: &Pair<f64>, expected: &ExpectedLoading) -> f64 {
         self.dissipative_time * self.max_stiffness(pair, expected)
     }

@@ -9,7 +9,8 @@ use crate::pair::Pair;
 
 /// Dashpot with a constant coefficient, f = γ_0 dδ/dt while δ > 0, on every branch.
 ///
-/// The force jumps by γ_0 v at first touch, which makes any fixed-step integration first order there.
+/// The force jumps by γ_0 v where the bodies touch and where they part. As every dashpot it acts, in such a step, for the part
+/// of the step in which they are in contact: the time integration keeps its second order.
 ///
 /// # Source
 /// A. Singh, V. Magnanimo, S. Luding, arXiv:1503.03720 ("S1"), eq. (2).

@@ -147,9 +147,8 @@ impl ContactGroup {
 
     /// Looks for the quantities that its laws read among the columns of the particles.
     pub(crate) fn find_quantities(&mut self, columns: &[NamedColumn]) {
-        let entries = [self.model.normal.entry(), self.model.laws.noncontact.entry()];
-        for (slots, entry) in self.quantity_columns.iter_mut().zip(entries) {
-            for (slot, quantity) in slots.iter_mut().zip(entry.particle_quantities) {
+        for (slots, read) in self.quantity_columns.iter_mut().zip(self.model.quantities_by_law()) {
+            for (slot, quantity) in slots.iter_mut().zip(read) {
                 *slot = columns.iter().position(|column| column.name == quantity.name);
             }
         }

@@ -1,6 +1,6 @@
 //! The contact model of each pair of materials.
 
-use pulvis_contact::{ContactModel, Pair};
+use pulvis_contact::{ContactModel, Pair, Sizes};
 use pulvis_math::max_or_nan;
 
 use crate::particles::MaterialIndex;
@@ -89,8 +89,13 @@ impl Interactions {
     }
 
     /// Sets the present materials: those of particles, with the largest radius of each [m], and those of walls, with the
-    /// least mean curvature of each wall [1/m].
-    pub(crate) fn fit(&mut self, largest_radii: &[(MaterialIndex, f64)], walls: &[(MaterialIndex, f64)]) {
+    /// least mean curvature of each wall [1/m]. `sizes` are those of the particles' quantities by name.
+    pub(crate) fn fit(
+        &mut self,
+        largest_radii: &[(MaterialIndex, f64)],
+        walls: &[(MaterialIndex, f64)],
+        sizes: impl Fn(&str) -> Sizes,
+    ) {
         let radius = |material: usize| {
             largest_radii.iter().find(|(known, _)| usize::from(*known) == material).map(|(_, radius)| *radius)
         };
@@ -113,8 +118,8 @@ impl Interactions {
                 let pair = low * self.materials + high;
                 self.group_of[pair] = self.groups.len() as u32;
                 let curvature = least_curvature([low, high]);
-                let range =
-                    self.models[pair].as_ref().map_or(0.0, |model| longest_range(model, radii, curvature));
+                let range = self.models[pair]
+                    .map_or(0.0, |model| longest_range(&model.bounded_by(&sizes), radii, curvature));
                 self.groups.push(Group { pair, range });
             }
         }
@@ -173,7 +178,7 @@ mod tests {
         let mut range = |curvatures: &[f64]| {
             let walls: Vec<(MaterialIndex, f64)> =
                 curvatures.iter().map(|&curvature| (1, curvature)).collect();
-            interactions.fit(&[(0, 1e-3)], &walls);
+            interactions.fit(&[(0, 1e-3)], &walls, |_| std::iter::empty().collect());
             interactions.range(interactions.group(0, 1))
         };
         let plane = range(&[0.0]);

@@ -11,7 +11,8 @@ impl Simulation {
     /// Gives all particles a quantity, or other values of one that they have. The values are in the order of the ids.
     ///
     /// # Errors
-    /// There is not one finite value for each particle, or the column has no name. Nothing has changed then.
+    /// There is not one finite value for each particle, or the column has no name; a law reads it and does not take the
+    /// values, or acts as far as half a period with them. Nothing has changed then.
     pub fn set_column(&mut self, column: NamedColumn) -> Result<(), SetupError> {
         check_column(&column, self.particles.len())?;
         let mut values = vec![0.0; column.values.len()];
@@ -19,15 +20,24 @@ impl Simulation {
             values[row] = value;
         }
         let column = NamedColumn { values, ..column };
-        if self.is_read(&column.name) {
-            // Contacts look for their columns when they are listed, and store another energy.
-            self.switch(|simulation| {
-                simulation.replace_column(column);
-                simulation.renew_candidates();
-            });
-        } else {
+        if !self.is_read(&column.name) {
             self.replace_column(column);
+            return Ok(());
         }
+        let before = self.particles.columns.clone();
+        self.replace_column(column);
+        self.fit_interactions();
+        let checked = self.check_quantities().and_then(|()| self.check_periods());
+        let columns = std::mem::replace(&mut self.particles.columns, before);
+        if let Err(error) = checked {
+            self.fit_interactions();
+            return Err(error);
+        }
+        // Contacts look for their columns when they are listed, and store another energy.
+        self.switch(|simulation| {
+            simulation.particles.columns = columns;
+            simulation.renew_candidates();
+        });
         Ok(())
     }
 

@@ -234,7 +234,11 @@ impl Simulation {
         }
         let walls: Vec<(MaterialIndex, f64)> =
             self.walls.iter().map(|wall| (wall.material, wall.shape.least_mean_curvature())).collect();
-        self.interactions.fit(&largest, &walls);
+        let columns = self.particles.columns();
+        self.interactions.fit(&largest, &walls, |name| {
+            let named = columns.iter().filter(|column| column.name == name);
+            named.flat_map(|column| &column.values).copied().collect()
+        });
     }
 
     fn check_models(&self) -> Result<(), SetupError> {

@@ -188,8 +188,7 @@ impl Given<'_> {
             }
             let columns = || self.groups.iter().flat_map(|group| &group.columns);
             contact.model = contact.model.bounded_by(|name| {
-                let sizes = columns().filter(|column| column.name == name).map(|column| column.value.abs());
-                sizes.fold(0.0, f64::max)
+                columns().filter(|column| column.name == name).map(|column| column.value).collect()
             });
         }
         Ok(())

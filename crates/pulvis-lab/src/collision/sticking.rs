@@ -26,12 +26,17 @@ const TYPICAL_OVERLAP: f64 = 0.05;
 /// stick. A lower end of zero and an infinite upper end stand for the ends of the search, which goes over
 /// five decades.
 ///
-/// Found by exact collisions and bisection to 1e-4, dashpots included; quantities of particles, as charges, are zero.
+/// Found by exact collisions and bisection to 1e-4, dashpots included; the speeds are those with which bodies come into
+/// each other's reach. Laws find the temperature and the quantities that they read among the `surroundings`.
 ///
 /// # Errors
 /// A collision cannot be computed, or takes too long: the pair is overdamped.
-pub fn sticking_ranges(bodies: Bodies, contact: &ContactModel) -> Result<Vec<[f64; 2]>, CollisionError> {
-    let search = Search { bodies, contact };
+pub fn sticking_ranges(
+    bodies: Bodies,
+    contact: &ContactModel,
+    surroundings: &Surroundings,
+) -> Result<Vec<[f64; 2]>, CollisionError> {
+    let search = Search { bodies, contact, surroundings };
     let scale = search.typical_speed();
     let [first, last] = DECADES.map(|decade| decade * PER_DECADE);
     let speed = |number: i32| scale * elementary::powf(10.0, f64::from(number) / f64::from(PER_DECADE));
@@ -57,6 +62,7 @@ pub fn sticking_ranges(bodies: Bodies, contact: &ContactModel) -> Result<Vec<[f6
 struct Search<'c> {
     bodies: Bodies,
     contact: &'c ContactModel,
+    surroundings: &'c Surroundings,
 }
 
 impl Search<'_> {
@@ -70,7 +76,7 @@ impl Search<'_> {
             contact,
             contact_number: 0,
             method: Method::Exact,
-            surroundings: Surroundings::default(),
+            surroundings: self.surroundings.clone(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Scenarios around the example of a law.
 
-use pulvis_contact::catalogue::{Kind, LawEntry, Parameter, Range, Role};
+use pulvis_contact::catalogue::{Kind, LawEntry, Parameter, Presence, Range, Role};
 use pulvis_math::Dimension;
 
 use super::path;
@@ -60,7 +60,9 @@ pub(super) fn collisions(entry: &LawEntry) -> Vec<String> {
 
 /// The bodies of the picture of a law, with the quantities that it reads.
 fn bodies(entry: &LawEntry) -> String {
-    let quantities = entry.particle_quantities.iter().map(|quantity| {
+    // What only some variants read is not for the example.
+    let read = entry.particle_quantities.iter().filter(|quantity| quantity.presence == Presence::Required);
+    let quantities = read.map(|quantity| {
         let Parameter { name, kind, .. } = quantity;
         let (size, signed) = match kind {
             Kind::Number { dimension: Dimension::LENGTH, range, .. } => {

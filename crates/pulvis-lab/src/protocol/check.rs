@@ -6,9 +6,9 @@ use std::time::Instant;
 use pulvis_contact::theory::{CriticalVelocities, LudingPair};
 use pulvis_contact::{ContactModel, Pair};
 use pulvis_core::Particle;
-use pulvis_input::NamedLaw;
 use pulvis_input::collision::{Bodies, Sphere, luding_pair};
-use pulvis_input::scenario::{Scenario, Stage};
+use pulvis_input::scenario::{Contact, Scenario, Stage};
+use pulvis_input::{BodyQuantity, NamedLaw, Surroundings};
 use pulvis_math::elementary;
 
 use super::disk::{DiskForecast, disk_forecast};
@@ -83,6 +83,8 @@ pub enum Sticking {
     ClosedForm(CriticalVelocities),
     /// Found by collisions, see [`sticking_ranges`] [m/s].
     Computed(Vec<[f64; 2]>),
+    /// Particles of the same material differ in this quantity, which a law reads.
+    Varied(&'static str),
     /// Not known: the pair is overdamped, or there are too many contacts to try.
     Unknown,
 }
@@ -216,10 +218,33 @@ fn forecasts(scenario: &Scenario, particles: &[Particle]) -> Vec<ContactForecast
             let (body, partner) = typical_bodies(particles, contact.materials)?;
             let names = contact.materials.map(|material| scenario.materials[material].name.as_str());
             let searches = began.elapsed().as_secs_f64() < SEARCH;
-            let forecast = forecast(names.join("-"), &contact.model, body, partner, searches);
+            let around = surroundings(scenario, contact, partner.is_none());
+            let forecast = forecast(names.join("-"), &contact.model, body, partner, (searches, around));
             Some(ContactForecast { laws: contact.laws.clone(), ..forecast })
         })
         .collect()
+}
+
+/// What the laws of a contact read at the start; the name of a quantity of which particles of one material have several
+/// values.
+fn surroundings(scenario: &Scenario, contact: &Contact, at_wall: bool) -> Result<Surroundings, &'static str> {
+    let mut quantities = Vec::new();
+    for quantity in contact.model.particle_quantities() {
+        let of_material = |material: usize| -> Result<Option<f64>, &'static str> {
+            let groups = scenario.particles.iter().filter(|group| group.material == material);
+            let columns = groups.flat_map(|group| &group.columns);
+            let mut values = columns.filter(|column| column.name == quantity.name).map(|column| column.value);
+            let Some(first) = values.next() else { return Ok(None) };
+            if values.all(|value| value == first) { Ok(Some(first)) } else { Err(quantity.name) }
+        };
+        let [one, other] = contact.materials.map(of_material);
+        let (one, other) = (one?, other?);
+        let first = one.or(other).unwrap_or_default();
+        let second = if at_wall { 0.0 } else { one.and(other).unwrap_or_default() };
+        let values = [first, second];
+        quantities.push(BodyQuantity { name: quantity.name, unit: quantity.unit(), values });
+    }
+    Ok(Surroundings { temperature: scenario.temperature.clone(), quantities })
 }
 
 /// Mass [kg] and radius [m] of a particle.
@@ -249,7 +274,7 @@ fn forecast(
     model: &ContactModel,
     body: (f64, f64),
     partner: Option<(f64, f64)>,
-    searches: bool,
+    (searches, around): (bool, Result<Surroundings, &'static str>),
 ) -> ContactForecast {
     let pair = match partner {
         Some(partner) => Pair::spheres(body.0, partner.0, body.1, partner.1),
@@ -261,14 +286,17 @@ fn forecast(
         Some(theory) if damping == 0.0 => Sticking::ClosedForm(theory.critical_velocities()),
         // An overdamped pair creeps for longer than anybody wants to wait.
         _ if damping >= 1.0 || !searches => Sticking::Unknown,
-        _ => {
-            let sphere = |(mass, radius): (f64, f64)| Sphere { radius, mass };
-            let bodies = match partner {
-                Some(partner) => Bodies::Pair([sphere(body), sphere(partner)]),
-                None => Bodies::Wall(sphere(body)),
-            };
-            sticking_ranges(bodies, model).map_or(Sticking::Unknown, Sticking::Computed)
-        }
+        _ => match around {
+            Err(quantity) => Sticking::Varied(quantity),
+            Ok(around) => {
+                let sphere = |(mass, radius): (f64, f64)| Sphere { radius, mass };
+                let bodies = match partner {
+                    Some(partner) => Bodies::Pair([sphere(body), sphere(partner)]),
+                    None => Bodies::Wall(sphere(body)),
+                };
+                sticking_ranges(bodies, model, &around).map_or(Sticking::Unknown, Sticking::Computed)
+            }
+        },
     };
     ContactForecast {
         between,

@@ -187,6 +187,14 @@ fn overdamped(scenario: &Scenario, prepared: &Prepared) -> Vec<String> {
     warnings
 }
 
+/// The modes of a bond, in the order of its dashpots.
+const BOND_MODES: [&str; 4] = [
+    "of the bond along it",
+    "of the bond across it",
+    "of the bond against bending",
+    "of the bond against torsion",
+];
+
 /// Damping ratios γ/(2 √(k m)) [1] of the contact of two bodies with mass [kg] and radius [m], the second one a
 /// wall where `None`, on the stiffest branch of each law.
 pub(super) fn damping_ratios(
@@ -214,6 +222,15 @@ pub(super) fn damping_ratios(
     let turn = |(mass, radius): (f64, f64)| 2.5 * lever * lever / (mass * radius * radius);
     let turning = turn(body) + partner.map_or(0.0, turn);
     let mut ratios = vec![("along the normal", normal)];
+    if let Some(bond) = &laws.bond {
+        let radii = [body.1, partner.map_or(0.0, |(_, radius)| radius)];
+        let (stiffness, dashpots) = (bond.stiffness_at_touch(radii), bond.dashpots_at_touch(radii));
+        let springs = [stiffness.normal, stiffness.shear, stiffness.bending, stiffness.torsion];
+        let turning = turning / (lever * lever);
+        let inverse_masses = [pair.inverse_reduced_mass(), 3.5 * masses, turning, turning];
+        let ratio = |mode: usize| ratio(dashpots[mode], springs[mode], inverse_masses[mode]);
+        ratios.extend(BOND_MODES.iter().enumerate().map(|(mode, what)| (*what, ratio(mode))));
+    }
     for (what, law, inverse_mass) in [
         ("of sliding", &laws.sliding, 3.5 * masses),
         ("of rolling", &laws.rolling, turning),

@@ -51,7 +51,7 @@ pub(super) fn first_case(scenario: &CollisionScenario, contact: usize) -> Option
 
 fn searched(case: &CollisionCase) -> Result<Limits, ReproductionError> {
     let mut limits = [None; 3];
-    for [from, to] in sticking_ranges(case.bodies, &case.contact)? {
+    for [from, to] in sticking_ranges(case.bodies, &case.contact, &case.surroundings)? {
         let end = Some(to).filter(|to| to.is_finite());
         if from > 0.0 {
             (limits[1], limits[2]) = (Some(from), end);

@@ -40,7 +40,7 @@ impl SinterLuding {
         let inverse_limit = self.inverse_limit(&motion.pair);
         let begins = before.elastic_stiffness.le(zero);
         let mut line =
-            Line { slope: R::select(begins, plastic, before.elastic_stiffness), rest: before.rest };
+            Line { slope: R::select(begins, R::splat(self.k1), before.elastic_stiffness), rest: before.rest };
         let mut losses = Losses::default();
         let changed = !begins & (plastic - before.plastic_stiffness).abs().gt(zero);
         if changed.any() {

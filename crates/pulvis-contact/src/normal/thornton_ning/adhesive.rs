@@ -304,8 +304,11 @@ impl Adhesive {
         let attached = memory.attached > 0.5;
         if m > 0.0 {
             let curve = self.unloading(limit, m);
+            let cube = m * m * m;
+            // After the response the point lies on its curve to round-off only.
+            let round_off = 16.0 * f64::EPSILON * m * (cube + 4.0);
             return match relative {
-                relative if relative >= m * (m * m * m - 4.0) => (2, "plastic"),
+                relative if relative >= m * (cube - 4.0) - round_off => (2, "plastic"),
                 relative if relative >= curve.start => (3, "unloading"),
                 relative if attached && relative > curve.start - 3.0 * curve.scale => (3, "unloading"),
                 _ => APART,

@@ -79,7 +79,8 @@ impl Dry {
         let radius = effective_radius(pair);
         let yield_radius = self.relative_yield_radius() * radius;
         let before = memory.largest_radius.max(1.0);
-        if (radius * overlap).sqrt() / yield_radius >= before {
+        // After the response the point lies on its curve to round-off only.
+        if (radius * overlap).sqrt() / yield_radius >= before * (1.0 - 8.0 * f64::EPSILON) {
             return (2, "plastic");
         }
         let square = before * before;

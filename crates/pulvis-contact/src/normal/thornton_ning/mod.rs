@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use pulvis_math::{Dimension, Real, elementary};
 
+use super::dmt::WORK_OF_ADHESION_OR_NONE;
 use super::hertz::{EFFECTIVE_MODULUS, effective_radius, expected_overlap};
 use super::{NormalLaw, NormalResponse};
 use crate::catalogue::{Choice, InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
@@ -98,14 +99,7 @@ p_y counts as at least 1.26 (E*² Γ/(π² R))^(1/3)",
                 Range::Positive,
                 "limiting contact pressure, 1.6 to 3 times the yield stress",
             ),
-            Parameter::number(
-                "work_of_adhesion",
-                "Γ",
-                Dimension::STIFFNESS,
-                Range::NonNegative,
-                "work of adhesion of both surfaces together, 2 γ_s for equal materials (1 J/m² = 1 N/m)",
-            )
-            .or(0.0),
+            WORK_OF_ADHESION_OR_NONE,
             Parameter::choice(
                 "variant",
                 "",

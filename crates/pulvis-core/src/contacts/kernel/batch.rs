@@ -53,8 +53,19 @@ impl<R: Simd8> Columns<R> for BlockColumns<'_> {
 #[derive(Clone, Copy)]
 pub(super) struct GatheredBlock<R> {
     pub(super) block: usize,
-    pub(super) pair: Pair<R>,
+    /// 1/m_i + 1/m_j [1/kg], of a wall contact 1/m_i.
+    pub(super) inverse_mass: R,
+    /// 1/a_i + 1/a_j [1/m], of a wall contact 1/a_i and the mean curvature of the wall.
+    pub(super) inverse_radius: R,
     pub(super) motion: ContactKinematics<R>,
+}
+
+impl<R: Simd8> GatheredBlock<R> {
+    /// The constants of the bodies, without quantities.
+    #[inline(always)]
+    pub(super) fn pair(&self) -> Pair<R> {
+        Pair::from_sums(self.inverse_mass, self.inverse_radius)
+    }
 }
 
 /// A block that has been computed.
@@ -149,7 +160,7 @@ impl<R: Simd8> Batch<R> {
             angular_velocity_i_mid: none,
             angular_velocity_j_mid: none,
         };
-        let block = GatheredBlock { block: 0, pair: Pair::from_sums(zero, zero), motion };
+        let block = GatheredBlock { block: 0, inverse_mass: zero, inverse_radius: zero, motion };
         let responses = ContactResponses { force: none, torque_i: none, torque_j: none };
         Self { blocks: [block; BATCH], responses: [responses; BATCH], count: 0 }
     }
@@ -167,22 +178,11 @@ impl<R: Simd8> Batch<R> {
         &mut self.blocks[self.count - 1]
     }
 
-    /// Gathers the quantities of the particles of `block`, if it is the one that was added last.
+    /// Where `block` stands, if it is the one that was added last.
     #[inline(always)]
-    pub(super) fn gather_quantities(&mut self, group: &ContactGroup, columns: &[NamedColumn], block: usize) {
-        let Some(gathered) = self.blocks[..self.count].last_mut() else { return };
-        if gathered.block != block {
-            return;
-        }
-        let quantities = quantities_of(group, columns, block);
-        let gathered = gathered.pair.quantities_mut();
-        for (into, from) in
-            [(&mut gathered.normal, &quantities.normal), (&mut gathered.attraction, &quantities.attraction)]
-        {
-            for (into, from) in into.iter_mut().zip(from) {
-                (into[0], into[1]) = (R::load(&from[0]), R::load(&from[1]));
-            }
-        }
+    pub(super) fn index_of_last(&self, block: usize) -> Option<usize> {
+        let last = self.count.checked_sub(1)?;
+        (self.blocks[last].block == block).then_some(last)
     }
 
     /// Computes all blocks, updates their `memory`, and adds up their energies if the ledger is kept.
@@ -199,11 +199,12 @@ impl<R: Simd8> Batch<R> {
         let columns = response.slots.columns();
         response.call.prepare(&mut self.blocks[..self.count], memory);
         for index in 0..self.count {
-            let GatheredBlock { block, pair, motion } = &self.blocks[index];
+            let gathered = &self.blocks[index];
+            let (motion, pair) = (&gathered.motion, response.call.pair(index, gathered));
             // SAFETY: the caller's.
-            let mut columns = unsafe { BlockColumns::of(memory, *block, columns) };
+            let mut columns = unsafe { BlockColumns::of(memory, gathered.block, columns) };
             let Response { time_step, temperature, .. } = *response;
-            let inputs = ContactInputs { pair, motion, time_step, temperature };
+            let inputs = ContactInputs { pair: &pair, motion, time_step, temperature };
             let mut answer = response.laws.respond::<R, C::Source<'_>, _, RESISTANCE>(
                 &response.call.source(index),
                 &response.slots,
@@ -282,7 +283,11 @@ impl<R: Simd8> Batch<R> {
 /// The quantities of the particles of a block, in memory: few groups have laws that read them, and the loops of others
 /// hold no code for it.
 #[inline(never)]
-fn quantities_of(group: &ContactGroup, columns: &[NamedColumn], block: usize) -> Quantities<F64x8> {
+pub(super) fn quantities_of(
+    group: &ContactGroup,
+    columns: &[NamedColumn],
+    block: usize,
+) -> Quantities<F64x8> {
     let pairs: [Quantities; WIDTH] = std::array::from_fn(|lane| {
         let second = match group.partner {
             Partner::Particle => Some(group.second_row(block, lane) as usize),

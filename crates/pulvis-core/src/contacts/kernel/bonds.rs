@@ -103,7 +103,8 @@ impl Routine<BondTask> for BondRoutine {
         for (block, (answer, distance)) in data.blocks.iter_mut().zip(places) {
             // SAFETY: every gathered block has its memory.
             let mut columns = unsafe { BlockColumns::of(data.memory, block.block, slots.columns()) };
-            let inputs = ContactInputs { pair: &block.pair, motion: &block.motion, time_step, temperature };
+            let pair = block.pair();
+            let inputs = ContactInputs { pair: &pair, motion: &block.motion, time_step, temperature };
             *answer = bond.respond(inputs, slots.bond(), &mut columns);
             *distance = Distance::of(&block.motion);
             block.motion = answer.beside(&block.motion);

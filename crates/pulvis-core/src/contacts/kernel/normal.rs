@@ -5,12 +5,14 @@ use std::marker::PhantomData;
 use pulvis_contact::normal::{Computed, Inlined, NormalSource, answer};
 use pulvis_contact::{
     ContactKinematics, ContactModel, ContactResponse, MemorySlots, Normal, NormalLaw, NormalLawVisitor,
-    NormalMotion, NormalResponse,
+    NormalMotion, NormalResponse, Pair, Quantities,
 };
 use pulvis_math::{F64Array, Pointer, Routine, Simd8, Task};
 
-use super::batch::{BATCH, BlockColumns, GatheredBlock};
+use super::super::block::ContactGroup;
+use super::batch::{BATCH, BlockColumns, GatheredBlock, quantities_of};
 use super::bonds::{BondCall, Distance};
+use crate::columns::NamedColumn;
 
 /// Eight contacts at a time.
 type F64x8 = F64Array<8>;
@@ -28,6 +30,18 @@ pub(super) trait NormalCall<R: Simd8> {
 
     /// The response for block `index` of the batch.
     fn source(&self, index: usize) -> Self::Source<'_>;
+
+    /// Gathers the quantities of the particles of `block`, number `index` of the batch, where laws read any.
+    fn gather_quantities(
+        &mut self,
+        index: usize,
+        group: &ContactGroup,
+        columns: &[NamedColumn],
+        block: usize,
+    );
+
+    /// The constants of the bodies of block `index` of the batch.
+    fn pair(&self, index: usize, block: &GatheredBlock<R>) -> Pair<R>;
 
     /// How far apart the bodies of block `index` are, whose laws see the motion `seen`.
     fn distance(&self, index: usize, seen: &ContactKinematics<R>) -> Distance<R>;
@@ -48,6 +62,15 @@ impl<R: Simd8, N: NormalLaw> NormalCall<R> for Inlined<N> {
     #[inline(always)]
     fn source(&self, _index: usize) -> Self {
         *self
+    }
+
+    /// Nothing: laws of common contacts read none.
+    #[inline(always)]
+    fn gather_quantities(&mut self, _: usize, _: &ContactGroup, _: &[NamedColumn], _: usize) {}
+
+    #[inline(always)]
+    fn pair(&self, _index: usize, block: &GatheredBlock<R>) -> Pair<R> {
+        block.pair()
     }
 
     #[inline(always)]
@@ -98,6 +121,7 @@ pub(super) struct Pointed<'a, R: Simd8, const CURVED: bool> {
     advance: StepMiddle,
     wants: Wants,
     bonds: Option<BondCall<R>>,
+    quantities: [Quantities<R>; BATCH],
 }
 
 impl<'a, R: Simd8, const CURVED: bool> Pointed<'a, R, CURVED> {
@@ -117,7 +141,8 @@ impl<'a, R: Simd8, const CURVED: bool> Pointed<'a, R, CURVED> {
             bonds = Some(BondCall::new(bond, *slots, advance));
         }
         let (answers, columns) = ([NormalResponse::none(); BATCH], slots.columns());
-        Self { law, pointer, answers, columns, advance, wants, bonds }
+        let quantities = [Quantities::default(); BATCH];
+        Self { law, pointer, answers, columns, advance, wants, bonds, quantities }
     }
 }
 
@@ -132,9 +157,33 @@ impl<R: Simd8, const CURVED: bool> NormalCall<R> for Pointed<'_, R, CURVED> {
         if let Some(bonds) = &mut self.bonds {
             bonds.prepare(blocks, memory);
         }
-        let Self { law, pointer, answers, columns, advance, wants, .. } = self;
+        let Self { law, pointer, answers, columns, advance, wants, quantities, .. } = self;
         let (columns, advance, wants) = (*columns, *advance, *wants);
-        pointer.call(&mut NormalBatch { law, blocks, answers, memory, columns, advance, wants });
+        pointer.call(&mut NormalBatch { law, blocks, quantities, answers, memory, columns, advance, wants });
+    }
+
+    #[inline(always)]
+    fn gather_quantities(
+        &mut self,
+        index: usize,
+        group: &ContactGroup,
+        columns: &[NamedColumn],
+        block: usize,
+    ) {
+        let quantities = quantities_of(group, columns, block);
+        let gathered = &mut self.quantities[index];
+        for (into, from) in
+            [(&mut gathered.normal, &quantities.normal), (&mut gathered.attraction, &quantities.attraction)]
+        {
+            for (into, from) in into.iter_mut().zip(from) {
+                (into[0], into[1]) = (R::load(&from[0]), R::load(&from[1]));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn pair(&self, index: usize, block: &GatheredBlock<R>) -> Pair<R> {
+        block.pair().with_quantities(self.quantities[index])
     }
 
     #[inline(always)]
@@ -167,6 +216,7 @@ impl<R: Simd8, const CURVED: bool> NormalCall<R> for Pointed<'_, R, CURVED> {
 pub(super) struct NormalBatch<'a, R: Simd8> {
     law: &'a Normal,
     blocks: &'a [GatheredBlock<R>],
+    quantities: &'a [Quantities<R>; BATCH],
     answers: &'a mut [NormalResponse<R>; BATCH],
     memory: &'a mut [F64x8],
     columns: usize,
@@ -190,8 +240,10 @@ impl<N: NormalLaw> Routine<NormalTask> for RoutineOf<N> {
         let Some(law) = N::of(data.law) else { return };
         // By value: otherwise the compiler reads them again after every store.
         let (law, wants, StepMiddle { time_step, temperature }) = (*law, data.wants, data.advance);
-        for (block, slot) in data.blocks.iter().zip(&mut *data.answers) {
-            let motion = NormalMotion::new(&block.pair, &block.motion, time_step, temperature);
+        let places = data.quantities.iter().zip(&mut *data.answers);
+        for (block, (quantities, slot)) in data.blocks.iter().zip(places) {
+            let pair = block.pair().with_quantities(*quantities);
+            let motion = NormalMotion::new(&pair, &block.motion, time_step, temperature);
             // SAFETY: every gathered block has its memory.
             let mut columns = unsafe { BlockColumns::of(data.memory, block.block, data.columns) };
             let answer = answer(&law, &motion, &mut columns);

@@ -6,7 +6,7 @@ use pulvis_contact::{NormalLaw, levels};
 use pulvis_math::{Kernel, Mask, Simd8};
 
 use super::super::block::{ContactGroup, occupied_lanes};
-use super::batch::{BATCH, Batch, BlockSums, GatheredBlock, Response, gather, gather_apart};
+use super::batch::{BATCH, Batch, BlockSums, Response, gather, gather_apart};
 use super::normal::{NormalCall, Pointed};
 use super::{Advance, KinematicColumns, Loop, finish, response, step_middle, wants};
 use crate::particles::ForceTorque;
@@ -149,8 +149,8 @@ unsafe fn sweep_pairs<R: Simd8, C: NormalCall<R>, const RESISTANCE: u8, const LE
         while next < blocks && !batch.is_full() {
             // SAFETY: `next` is a block of the group; the rest as the caller vouches.
             unsafe { gathering.gather::<R, RESISTANCE>(group, next, &mut batch) };
-            if reads {
-                batch.gather_quantities(group, moving.quantities, next);
+            if reads && let Some(index) = batch.index_of_last(next) {
+                response.call.gather_quantities(index, group, moving.quantities, next);
             }
             next += 1;
         }
@@ -221,9 +221,10 @@ impl Gathering<'_> {
         let inverse_distance = R::one() / distance;
         let (velocity_mid, inverse_mass) = unsafe { gather_apart::<R>(moving.velocity_mid, rows) };
         let (velocity, inverse_radius_sum) = unsafe { gather_apart::<R>(moving.velocity, rows) };
-        let GatheredBlock { block: number, pair, motion } = batch.add();
-        *number = block;
-        pair.set_sums(inverse_mass, inverse_radius_sum);
+        let gathered = batch.add();
+        gathered.block = block;
+        (gathered.inverse_mass, gathered.inverse_radius) = (inverse_mass, inverse_radius_sum);
+        let motion = &mut gathered.motion;
         motion.normal = separation * inverse_distance;
         (motion.overlap, motion.inverse_distance) = (overlap, inverse_distance);
         (motion.radius_i, motion.radius_j) = (radius_i, radius_j);

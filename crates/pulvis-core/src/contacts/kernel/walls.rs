@@ -5,7 +5,7 @@ use pulvis_math::{Kernel, Mask, Simd8, Vector3};
 
 use super::super::block::occupied_lanes;
 use super::batch::{BATCH, Batch, BlockSums, gather};
-use super::normal::Pointed;
+use super::normal::{NormalCall, Pointed};
 use super::{Loop, finish, response, step_middle, wants};
 use crate::shared::Shared;
 use crate::walls::{WallForce, WallNow};
@@ -75,7 +75,8 @@ impl Kernel for WallLoop<'_> {
                 // Values that a wall does not have stay zero.
                 let inputs = batch.add();
                 inputs.block = block;
-                inputs.pair.set_sums(inverse_mass, inverse_radius + surface.mean_curvature);
+                inputs.inverse_mass = inverse_mass;
+                inputs.inverse_radius = inverse_radius + surface.mean_curvature;
                 let motion = &mut inputs.motion;
                 (motion.normal, motion.overlap, motion.radius_i) = (surface.normal, overlap, radius);
                 (motion.velocity, motion.velocity_mid) = (velocity, mid);
@@ -92,9 +93,10 @@ impl Kernel for WallLoop<'_> {
                         motion.angular_velocity_j = motion.angular_velocity_j_mid;
                     }
                 }
-                arms[batch.len() - 1] = arm;
+                let index = batch.len() - 1;
+                arms[index] = arm;
                 if reads {
-                    batch.gather_quantities(group, moving.quantities, block);
+                    response.call.gather_quantities(index, group, moving.quantities, block);
                 }
             }
             // SAFETY: every block has its memory; the rest as the caller of `sweep` vouches.

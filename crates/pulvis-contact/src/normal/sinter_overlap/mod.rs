@@ -1,13 +1,14 @@
 //! Contacts whose plastic overlap grows with time, as in sintering.
 
-use pulvis_math::{Dimension, Mask, Real};
+use pulvis_math::{Mask, Real};
 
 use super::{NormalLaw, NormalResponse};
-use crate::catalogue::{Choice, InvalidParameter, Law, LawEntry, Parameter, Range, Role, Values};
 use crate::events;
 use crate::expected::ExpectedLoading;
 use crate::kinematics::NormalMotion;
 use crate::pair::Pair;
+
+mod entry;
 
 /// An elastic contact about a plastic overlap δ_p that grows while it is pressed, and a constant sintering force:
 ///
@@ -22,8 +23,8 @@ use crate::pair::Pair;
 /// any length: (δ − δ_p)/(1 + s δ_p) falls as exp(−μ (1 + s δ) dt), μ = 2 r k1/σ_s or as Parhami and McMeeking have it. What
 /// the elastic energy f_e²/(2 k2) loses thereby is booked as plastic: never negative, because of plastic loading.
 ///
-/// The time step must resolve growth; its estimate knows the stiffness only. After Parhami and McMeeking a neck grows at
-/// once where it is small.
+/// The automatic time step resolves μ (1 + s δ) of the largest plastic overlap. After Parhami and McMeeking smaller necks grow
+/// faster; those that are small grow at once.
 ///
 /// The sintering force sets in at touch and ends there, with the weights of events; its potential is −σ_s a12 δ.
 ///
@@ -39,80 +40,6 @@ pub struct SinterOverlap {
     sinter_tension: f64,
     rate: f64,
     parhami: bool,
-}
-
-const STIFFNESS: Dimension = Dimension::STIFFNESS;
-
-impl Law for SinterOverlap {
-    const ENTRY: LawEntry = LawEntry {
-        role: Role::Normal,
-        name: "sinter-overlap",
-        summary: "elastic contact about a plastic overlap that grows with time, and a sintering force",
-        equations: "\
-f   = f_e − σ_s a12                 f_e = k2 (δ − δ_p),  k2 = k1 (1 + s δ_p),  s = (kp/k1 − 1)/(φ_f a12)
-δ_p ≥ δ − 1/s                       plastic loading, f_e = k1 δ, up to δ_p = φ_f a12
-f_e = −kc δ                         where that is larger; δ_p then shrinks
-dδ_p/dt = 2 r f_e/σ_s               growth = \"constant\";  r f_e/(0.375 σ_s (δ/a12)²) for \"parhami-mcmeeking\"",
-        source: "Parhami & McMeeking, Mech. Mater. 27, 111 (1998), in the form of public code; energies derived for this program",
-        parameters: &[
-            Parameter::number("k1", "k₁", STIFFNESS, Range::Positive, "stiffness of plastic (virgin) loading"),
-            Parameter::number("kp", "k_p", STIFFNESS, Range::Positive, "largest elastic stiffness, greater than k1"),
-            Parameter::number("kc", "k_c", STIFFNESS, Range::NonNegative, "minus the slope of the tensile limit"),
-            Parameter::number(
-                "phi_f",
-                "φ_f",
-                Dimension::NONE,
-                Range::Within(0.0, 1.0),
-                "largest plastic overlap over the harmonic mean radius a12",
-            ),
-            Parameter::number(
-                "sinter_tension",
-                "σ_s",
-                STIFFNESS,
-                Range::Positive,
-                "sintering force over a12, of the size of the surface tension (0.01 to 1 N/m)",
-            ),
-            Parameter::number("rate", "r", Dimension::RATE, Range::NonNegative, "rate of sintering"),
-            Parameter::choice(
-                "growth",
-                "",
-                &[
-                    Choice { name: "constant", meaning: "2 r f_e/σ_s at any neck" },
-                    Choice {
-                        name: "parhami-mcmeeking",
-                        meaning: "r f_e/(0.375 σ_s (δ/a12)²): necks grow with the cube root of time",
-                    },
-                ],
-                "constant",
-                "how fast the plastic overlap grows",
-            ),
-        ],
-        particle_quantities: &[],
-        memory: &["plastic_overlap [m]"],
-        closed_form: "necks after 1 s and 8 s under the sintering force (pulvis verify)",
-        example: "law = \"sinter-overlap\"\nk1 = \"100 N/m\"\nkp = \"500 N/m\"\nkc = \"20 N/m\"\nphi_f = 0.2\nsinter_tension = \"0.1 N/m\"\nrate = \"1e-3 1/s\"",
-    };
-
-    fn from_values(values: &Values) -> Result<Self, InvalidParameter> {
-        let (k1, kp) = (values.number("k1")?, values.number("kp")?);
-        if kp <= k1 {
-            return Err(InvalidParameter::Inconsistent {
-                name: "kp",
-                found: format!("{kp} N/m"),
-                expected: format!("kp > k1 = {k1} N/m"),
-                reason: "a plastic overlap that does not stiffen the contact has no end",
-            });
-        }
-        Ok(Self {
-            k1,
-            kp,
-            kc: values.number("kc")?,
-            phi_f: values.number("phi_f")?,
-            sinter_tension: values.number("sinter_tension")?,
-            rate: values.number("rate")?,
-            parhami: values.choice("growth")? == "parhami-mcmeeking",
-        })
-    }
 }
 
 /// The contact of one pair, with its scales.
@@ -247,6 +174,9 @@ impl NormalLaw for SinterOverlap {
             let pressed = middle.gt(half_way.plastic) & half_way.plastic.lt(scales.most);
             if pressed.any() {
                 let grown = self.grown(&scales, half_way.plastic, middle, motion.time_step);
+                // What the contact has yielded on the way it need not grow: it does the larger one of both, not both.
+                let yielded = (half_way.plastic - start).max(R::zero());
+                let grown = half_way.plastic.max(grown - yielded);
                 let fall =
                     self.energy(&scales, half_way.plastic, middle) - self.energy(&scales, grown, middle);
                 lost_plastic = (half_way.lost_plastic + fall).keep_where(pressed);
@@ -297,5 +227,11 @@ impl NormalLaw for SinterOverlap {
 
     fn max_stiffness(&self, _pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
         self.kp.max(self.kc)
+    }
+
+    /// μ (1 + s δ) at the largest plastic overlap.
+    fn relaxation_rate(&self, _pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
+        let constant = 2.0 * self.rate * self.kp / self.sinter_tension;
+        if self.parhami { constant / (0.75 * self.phi_f * self.phi_f) } else { constant }
     }
 }
