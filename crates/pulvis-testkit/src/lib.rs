@@ -30,6 +30,7 @@ pub mod collisions;
 pub mod contact;
 mod draw;
 pub mod friction;
+mod lanes;
 mod live;
 pub mod loading;
 pub mod noncontact;

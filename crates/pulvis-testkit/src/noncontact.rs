@@ -7,6 +7,7 @@ use pulvis_math::{F64Array, Real};
 
 use crate::draw::Draw;
 use crate::for_each_case;
+use crate::lanes::{LANES, Lanes};
 use crate::parameters::{random_law, random_pair, with_random_quantities};
 
 /// Checks every non-contact law of the catalogue with `count` random sets of parameters.
@@ -146,21 +147,20 @@ impl Bench {
     }
 
     fn lanes_give_the_bits_of_the_plain_number(&self, draw: &mut Draw) {
-        type Eight = F64Array<8>;
         let law = self.law;
-        let pairs: [Pair; 8] = std::array::from_fn(|_| random_pair_of(&law, draw));
-        let lanes = Pair::<Eight>::from_fn(|lane| pairs[lane]);
-        let mut plain = vec![self.virgin(); 8];
-        let mut memory = vec![Eight::zero(); self.virgin().len()];
+        let pairs: [Pair; LANES] = std::array::from_fn(|_| random_pair_of(&law, draw));
+        let lanes = Pair::<Lanes>::from_fn(|lane| pairs[lane]);
+        let mut plain = vec![self.virgin(); LANES];
+        let mut memory = vec![Lanes::zero(); self.virgin().len()];
         for _ in 0..40 {
-            let overlaps: [f64; 8] =
+            let overlaps: [f64; LANES] =
                 std::array::from_fn(
                     |_| {
                         if draw.chance(0.1) { 0.0 } else { self.span * draw.between(-1.3, 1.0) }
                     },
                 );
             let answer = law.respond(&NormalMotion::at_rest(&lanes, F64Array(overlaps)), &mut memory[..], 0);
-            for lane in 0..8 {
+            for lane in 0..LANES {
                 let motion = NormalMotion::at_rest(&pairs[lane], overlaps[lane]);
                 let one = law.respond(&motion, &mut plain[lane][..], 0);
                 let of_lane = [answer.force, answer.potential, answer.dissipated];

@@ -5,6 +5,7 @@ use pulvis_math::{F64Array, Real};
 
 use crate::draw::Draw;
 use crate::for_each_case;
+use crate::lanes::{LANES, Lanes};
 use crate::loading::ask;
 use crate::parameters::{loaded_to, random_law, random_pair};
 
@@ -29,20 +30,20 @@ impl NormalLawVisitor for Suite<'_> {
 
     fn visit<N: NormalLaw>(self, normal: &N) {
         let Self { law, draw } = self;
-        let pairs: [Pair; 8] = std::array::from_fn(|_| random_pair(draw));
-        let lanes = Pair::<F64Array<8>>::from_fn(|lane| pairs[lane]);
+        let pairs: [Pair; LANES] = std::array::from_fn(|_| random_pair(draw));
+        let lanes = Pair::<Lanes>::from_fn(|lane| pairs[lane]);
         let scales = pairs.map(|pair| {
             let at_touch = NormalMotion::at_rest(&pair, 0.0);
             ask(normal, &at_touch, &mut Default::default()).inverse_overlap_scale.recip()
         });
-        let mut memories = [<N::Memory<f64>>::default(); 8];
-        let mut memory = <N::Memory<F64Array<8>>>::default();
+        let mut memories = [<N::Memory<f64>>::default(); LANES];
+        let mut memory = <N::Memory<Lanes>>::default();
         for _ in 0..4 {
-            let overlaps: [f64; 8] =
+            let overlaps: [f64; LANES] =
                 scales.map(|scale| if draw.chance(0.1) { 0.0 } else { scale * draw.unit() });
             let all = ask(normal, &NormalMotion::at_rest(&lanes, F64Array(overlaps)), &mut memory);
             let together = law.coefficient(&lanes, F64Array(overlaps), &all);
-            for lane in 0..8 {
+            for lane in 0..LANES {
                 let (pair, overlap) = (&pairs[lane], overlaps[lane]);
                 let answer = ask(normal, &NormalMotion::at_rest(pair, overlap), &mut memories[lane]);
                 let coefficient = law.coefficient(pair, overlap, &answer);

@@ -274,8 +274,11 @@ impl NormalLaw for WaltonJohnson {
         }
     }
 
+    /// Where the tail begins the slope changes by k2 + k_tail. Velocity-Verlet errs there as at the first touch of a
+    /// spring of that stiffness, and in a contact that was never pressed flat the bodies are as fast as at touch.
     fn max_stiffness(&self, _pair: &Pair<f64>, _expected: &ExpectedLoading) -> f64 {
-        self.k2.max(self.k_tail)
+        let pulls = self.f_0 > 0.0 || self.kappa > 0.0;
+        if pulls { self.k2 + self.k_tail } else { self.k2 }
     }
 
     fn remembered_overlap(&self, memory: &WaltonJohnsonMemory<f64>) -> Option<f64> {

@@ -1,7 +1,7 @@
 //! Paths of all scales, and how much of a law they show.
 
 use pulvis_contact::catalogue::Role;
-use pulvis_math::elementary;
+use pulvis_math::{elementary, max_or_nan};
 
 use crate::probe::ProbeSample;
 
@@ -21,8 +21,14 @@ pub(super) fn durations() -> Vec<f64> {
 /// Turning points of overlaps and of the other motion [m], which laws along the normal do not need.
 pub(super) fn paths(role: Role) -> Vec<[Vec<f64>; 2]> {
     let along = |depth: f64, range: f64| {
-        let overlap = vec![-range, depth, 0.7 * depth, 1.3 * depth, -range];
-        [overlap, vec![0.0; 5]]
+        let mut overlap = vec![-range, depth, 0.7 * depth, 1.3 * depth, -range];
+        if role == Role::NonContact {
+            // Reach and overlap may be of different scales: each has legs of its own.
+            overlap.insert(4, 0.0);
+            overlap.insert(1, 0.0);
+        }
+        let other = vec![0.0; overlap.len()];
+        [overlap, other]
     };
     match role {
         Role::Sliding | Role::Rolling | Role::Torsion => decades(-9, -4)
@@ -58,6 +64,16 @@ pub(super) fn score(role: Role, samples: &[ProbeSample]) -> f64 {
         + 0.5 * near(last.dissipated / most_work, 0.4)
         + 0.5 * near(acting, 0.8)
         + 0.1 * near(deepest(samples), 0.01 * RADIUS)
+        - 20.0 * (mismatch(samples) / most_work).min(1.0)
+}
+
+/// The most by which work done differs from what is stored and dissipated: a path in steps so large that they pass
+/// what the law does.
+fn mismatch(samples: &[ProbeSample]) -> f64 {
+    let at_first = samples.first().map_or(0.0, |sample| sample.stored_energy);
+    let of =
+        |sample: &ProbeSample| (sample.work - (sample.stored_energy - at_first) - sample.dissipated).abs();
+    samples.iter().map(of).fold(0.0, max_or_nan)
 }
 
 /// How much a collision shows of a dashpot, by the part of the energy that is lost.

@@ -1,34 +1,34 @@
-//! One text of the whole contact serves a number and eight numbers.
+//! One text of the whole contact serves a number and several numbers.
 
 use pulvis_contact::normal::{CommonLawVisitor, Inlined};
 use pulvis_contact::{
     ContactInputs, ContactKinematics, ContactModel, ContactResponse, NormalLaw, Pair, ROOM_TEMPERATURE,
     levels,
 };
-use pulvis_math::{F64Array, Real, Vector3};
+use pulvis_math::{Real, Vector3};
 
 use super::Dance;
 use crate::bodies::pair_motion;
 use crate::draw::Draw;
-
-type Eight = F64Array<8>;
+use crate::lanes::{LANES, Lanes};
 
 const STEPS: usize = 40;
 
 pub(super) fn lanes_give_the_bits_of_the_plain_number(model: &ContactModel, draw: &mut Draw) {
-    let mut dances: Vec<Dance> = (0..8).map(|_| Dance::random(model, draw)).collect();
+    let mut dances: Vec<Dance> = (0..LANES).map(|_| Dance::random(model, draw)).collect();
+    let wall = draw.chance(0.5);
     // One time step for all.
     let duration = dances[0].duration;
     dances.iter_mut().for_each(|dance| dance.duration = duration);
-    let pairs = Pair::<Eight>::from_fn(|lane| dances[lane].pair);
+    let pairs = Pair::<Lanes>::from_fn(|lane| dances[lane].pair);
     let dt = duration / STEPS as f64;
     let columns = model.memory_layout().columns();
-    let mut memory = vec![Eight::zero(); columns];
+    let mut memory = vec![Lanes::zero(); columns];
     let mut inlined_memory = memory.clone();
-    let mut memories = vec![vec![0.0; columns]; 8];
+    let mut memories = vec![vec![0.0; columns]; LANES];
     for step in 0..=STEPS {
         let motions: Vec<_> =
-            dances.iter().enumerate().map(|(lane, dance)| motion(dance, step, lane)).collect();
+            dances.iter().enumerate().map(|(lane, dance)| motion(dance, step, lane, wall)).collect();
         let kinematics = gathered(&motions);
         if step == 0 {
             for (lane, alone) in memories.iter_mut().enumerate() {
@@ -43,7 +43,7 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number(model: &ContactModel, draw
             ContactInputs { pair: &pairs, motion: &kinematics, time_step: dt, temperature: ROOM_TEMPERATURE };
         let of_loop = InLoop { model, inputs, columns: &mut inlined_memory };
         let of_loop = if model.is_common() { model.normal.accept_common(of_loop) } else { None };
-        for lane in 0..8 {
+        for lane in 0..LANES {
             let alone = model.respond(&dances[lane].pair, &motions[lane], dt, &mut memories[lane]);
             assert_eq!(numbers(&together, lane), numbers(&alone, 0), "{model:?} {alone:?}");
             assert_eq!(state(&memory, lane), state(&memories[lane], 0), "{model:?}");
@@ -55,11 +55,11 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number(model: &ContactModel, draw
     }
 }
 
-fn motion(dance: &Dance, step: usize, lane: usize) -> ContactKinematics<f64> {
+fn motion(dance: &Dance, step: usize, lane: usize, wall: bool) -> ContactKinematics<f64> {
     let [i, j] = dance.step(step, STEPS);
     let mut motion = pair_motion(dance.radius_i, &i, Some((dance.radius_j, &j)));
-    if lane == 7 {
-        // One wall among the pairs.
+    if wall && lane == LANES - 1 {
+        // A wall beside pairs.
         (motion.inverse_distance, motion.radius_j) = (0.0, 0.0);
     }
     motion
@@ -68,13 +68,13 @@ fn motion(dance: &Dance, step: usize, lane: usize) -> ContactKinematics<f64> {
 /// The answer as the engine's loops for common contacts compute it.
 struct InLoop<'a> {
     model: &'a ContactModel,
-    inputs: ContactInputs<'a, Eight>,
-    columns: &'a mut [Eight],
+    inputs: ContactInputs<'a, Lanes>,
+    columns: &'a mut [Lanes],
 }
 
 impl CommonLawVisitor for InLoop<'_> {
-    type Output = ContactResponse<Eight>;
-    fn visit<N: NormalLaw>(self, law: N) -> ContactResponse<Eight> {
+    type Output = ContactResponse<Lanes>;
+    fn visit<N: NormalLaw>(self, law: N) -> ContactResponse<Lanes> {
         let Self { model, inputs, columns } = self;
         let (laws, law, layout) = (model.laws, Inlined(law), model.memory_layout());
         let slots = layout.slots();
@@ -86,13 +86,13 @@ impl CommonLawVisitor for InLoop<'_> {
     }
 }
 
-fn gathered(motions: &[ContactKinematics<f64>]) -> ContactKinematics<Eight> {
-    let number = |of: fn(&ContactKinematics<f64>) -> f64| Eight::from_fn(|lane| of(&motions[lane]));
+fn gathered(motions: &[ContactKinematics<f64>]) -> ContactKinematics<Lanes> {
+    let number = |of: fn(&ContactKinematics<f64>) -> f64| Lanes::from_fn(|lane| of(&motions[lane]));
     let vector = |of: fn(&ContactKinematics<f64>) -> Vector3| {
         Vector3::new(
-            Eight::from_fn(|lane| of(&motions[lane]).x),
-            Eight::from_fn(|lane| of(&motions[lane]).y),
-            Eight::from_fn(|lane| of(&motions[lane]).z),
+            Lanes::from_fn(|lane| of(&motions[lane]).x),
+            Lanes::from_fn(|lane| of(&motions[lane]).y),
+            Lanes::from_fn(|lane| of(&motions[lane]).z),
         )
     };
     ContactKinematics {
