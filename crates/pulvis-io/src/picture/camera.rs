@@ -1,9 +1,9 @@
 //! From the scene to the picture: an orthographic projection that shows everything.
 
 use super::selection::Selection;
-use super::{OutlineBox, SphereScene, View, furniture};
+use super::{SphereScene, View, furniture};
 
-type Vector = [f64; 3];
+pub(super) type Vector = [f64; 3];
 
 /// Coordinates of the picture: right and down \[pixel\], and depth away from the eye in the same unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +30,7 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// Fits the chosen spheres and all boxes into the part of the picture that the furniture leaves free.
+    /// Fits the chosen spheres and all outlines into the part of the picture that the furniture leaves free.
     pub(super) fn fit(scene: &SphereScene<'_>, selection: &Selection) -> Self {
         let [right, down, forward] = axes(scene.view);
         let mut camera = Self { right, down, forward, scale: 1.0, offset: [0.0; 2], depths: [0.0; 2] };
@@ -45,8 +45,8 @@ impl Camera {
         for (_, centre, radius) in shown(scene, selection) {
             include(camera.project(centre), radius);
         }
-        for corner in scene.boxes.iter().filter(|outline| outline.is_finite()).flat_map(OutlineBox::corners) {
-            include(camera.project(corner), 0.0);
+        for end in scene.edges().into_iter().flatten() {
+            include(camera.project(end), 0.0);
         }
         if low[0] > high[0] {
             (low, high) = ([-1.0; 3], [1.0; 3]);
@@ -91,20 +91,6 @@ pub(super) fn shown<'a>(
         .map(|(number, ((&centre, &radius), _))| (number, centre, radius))
 }
 
-impl OutlineBox {
-    /// Whether the box can be drawn.
-    pub(super) fn is_finite(&self) -> bool {
-        self.low.iter().chain(&self.high).all(|x| x.abs() < 1.0e100)
-    }
-
-    /// The eight corners; bit `axis` of the number tells which end of that axis.
-    pub(super) fn corners(&self) -> [Vector; 8] {
-        std::array::from_fn(|number| {
-            std::array::from_fn(|axis| if number >> axis & 1 == 0 { self.low[axis] } else { self.high[axis] })
-        })
-    }
-}
-
 /// Unit vectors to the right, down and forward; useless input falls back to what is nearest to sense.
 fn axes(view: View) -> [Vector; 3] {
     let forward = unit(view.direction).unwrap_or([0.0, 1.0, 0.0]);
@@ -115,16 +101,16 @@ fn axes(view: View) -> [Vector; 3] {
     [right, cross(forward, right), forward]
 }
 
-fn unit(vector: Vector) -> Option<Vector> {
+pub(super) fn unit(vector: Vector) -> Option<Vector> {
     let length = dot(vector, vector).sqrt();
     (length.is_finite() && length > 1.0e-6).then(|| vector.map(|x| x / length))
 }
 
-fn dot(a: Vector, b: Vector) -> f64 {
+pub(super) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: Vector, b: Vector) -> Vector {
+pub(super) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 

@@ -1,8 +1,8 @@
 //! Which sphere or line each sample of the picture shows.
 
+use super::SphereScene;
 use super::camera::{Camera, Projected, shown};
 use super::selection::Selection;
-use super::{OutlineBox, SphereScene};
 
 /// Samples per pixel in each direction.
 pub(super) const SAMPLES: usize = 2;
@@ -71,15 +71,10 @@ impl DepthBuffer {
         }
     }
 
-    /// Draws the edges of all boxes, hidden where spheres are nearer.
-    pub(super) fn draw_boxes(&mut self, scene: &SphereScene<'_>, camera: &Camera) {
-        for outline in scene.boxes.iter().filter(|outline| outline.is_finite()) {
-            let corners = OutlineBox::corners(outline).map(|corner| camera.project(corner));
-            for number in 0..8_usize {
-                for axis in (0..3).filter(|axis| number >> axis & 1 == 0) {
-                    self.draw_edge(corners[number], corners[number | 1 << axis]);
-                }
-            }
+    /// Draws edges, hidden where spheres are nearer.
+    pub(super) fn draw_edges(&mut self, edges: &[[[f64; 3]; 2]], camera: &Camera) {
+        for &[from, to] in edges {
+            self.draw_edge(camera.project(from), camera.project(to));
         }
     }
 
@@ -87,7 +82,7 @@ impl DepthBuffer {
     fn draw_edge(&mut self, from: Projected, to: Projected) {
         let samples = SAMPLES as f64;
         let length = (to.x - from.x).hypot(to.y - from.y) * samples;
-        // The camera fits every box, so no edge is longer than the diagonal; the bound is for the arithmetic only.
+        // The camera fits every outline, so no edge is longer than the diagonal; the bound is for the arithmetic only.
         let steps = (2.0 * length).clamp(1.0, 1.0e6) as usize;
         for step in 0..=steps {
             let share = step as f64 / steps as f64;

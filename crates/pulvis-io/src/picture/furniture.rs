@@ -2,7 +2,7 @@
 
 use super::camera::Camera;
 use super::selection::Selection;
-use super::{OutlineBox, SphereScene, bar};
+use super::{SphereScene, bar};
 use crate::plot::canvas::{Across, Along, Canvas, Setting, Stroke};
 use crate::plot::{raster, unit};
 use crate::{Colour, IoError};
@@ -61,7 +61,7 @@ pub(super) fn draw(
             canvas.text((0.5 * f64::from(scene.width), 0.62 * title), scene.title, setting)
         })?;
     }
-    let anything = selection.count() > 0 || scene.boxes.iter().any(OutlineBox::is_finite);
+    let anything = selection.count() > 0 || !scene.edges().is_empty();
     if strip > 0.0 && selection.count() > 0 {
         let height = f64::from(scene.height) - title;
         let area = [scene.width - strip as u32, title as u32, strip as u32, height as u32];

@@ -3,7 +3,7 @@
 //! The view is orthographic, so that sizes can be compared everywhere in the picture. Light comes from above the viewer's
 //! left shoulder; crevices are darkened and what lies far away fades a little, which is what makes a packing readable.
 //!
-//! The view holds the boxes and the spheres near them, without boxes the bulk of the spheres; how many lie outside or have
+//! The view holds the boxes and cylinders and the spheres near them, without these the bulk of the spheres; how many lie outside or have
 //! no finite position stands in a note on the picture.
 //!
 //! ```
@@ -28,6 +28,7 @@ mod bar;
 mod camera;
 mod depth;
 mod furniture;
+mod outline;
 mod selection;
 mod shade;
 
@@ -37,6 +38,8 @@ use camera::Camera;
 use depth::DepthBuffer;
 use selection::Selection;
 use std::path::Path;
+
+pub use outline::{OutlineBox, OutlineCylinder};
 
 /// Where one looks from. Neither vector needs unit length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,15 +59,6 @@ impl View {
 
     /// From the front, the right and above, z up.
     pub const OBLIQUE: Self = Self { direction: [-0.5, 1.0, -0.45], up: [0.0, 0.0, 1.0] };
-}
-
-/// A box along the axes, shown by its edges: a wall or a periodic cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OutlineBox {
-    /// Lower corner \[m\].
-    pub low: [f64; 3],
-    /// Upper corner \[m\].
-    pub high: [f64; 3],
 }
 
 /// What to draw.
@@ -96,6 +90,8 @@ pub struct SphereScene<'a> {
     pub bar_label: &'a str,
     /// Boxes shown by their edges.
     pub boxes: &'a [OutlineBox],
+    /// Cylinders shown by their outlines.
+    pub cylinders: &'a [OutlineCylinder],
     /// Whether a bar shows a length in metres.
     pub scale_bar: bool,
 }
@@ -104,7 +100,7 @@ impl<'a> SphereScene<'a> {
     /// Smallest and largest side of a picture \[pixel\].
     const SIDES: [u32; 2] = [64, 8192];
 
-    /// Spheres seen obliquely, in viridis, 1200 x 900 pixels, without title, colour bar, boxes and scale bar.
+    /// Spheres seen obliquely, in viridis, 1200 x 900 pixels, without title, colour bar, outlines and scale bar.
     pub fn new(centres: &'a [[f64; 3]], radii: &'a [f64], values: &'a [f64]) -> Self {
         Self {
             centres,
@@ -119,6 +115,7 @@ impl<'a> SphereScene<'a> {
             title: "",
             bar_label: "",
             boxes: &[],
+            cylinders: &[],
             scale_bar: false,
         }
     }
@@ -140,6 +137,12 @@ impl<'a> SphereScene<'a> {
             return Err(IoError::PictureSize { width, height, least, most });
         }
         Ok(())
+    }
+
+    /// The edges of all outlines.
+    fn edges(&self) -> Vec<[[f64; 3]; 2]> {
+        let boxes = self.boxes.iter().flat_map(OutlineBox::edges);
+        boxes.chain(self.cylinders.iter().flat_map(|cylinder| cylinder.edges(self.view))).collect()
     }
 
     /// Ends of the colour bar.
@@ -186,7 +189,7 @@ pub fn render_spheres(path: &Path, scene: &SphereScene<'_>) -> Result<(), IoErro
     let camera = Camera::fit(scene, &selection);
     let mut depth = DepthBuffer::new(scene.width, scene.height);
     depth.draw_spheres(scene, &selection, &camera);
-    depth.draw_boxes(scene, &camera);
+    depth.draw_edges(&scene.edges(), &camera);
     let mut pixels = shade::shade(&depth, scene, &selection, &camera, range);
     furniture::draw(&mut pixels, scene, &selection, &camera, range)?;
     file::replace(path, |out| raster::encode(out, &pixels, [scene.width, scene.height], raster::DPI))

@@ -1,6 +1,6 @@
 //! Which spheres a picture shows, and what it says of the others.
 
-use super::SphereScene;
+use super::{SphereScene, outline};
 
 /// Without a box, spheres farther from the middle than this many times the distance within which most lie are outside.
 const FAR: f64 = 5.0;
@@ -33,7 +33,7 @@ impl Selection {
             .zip(scene.radii)
             .map(|(&centre, &radius)| can_be_drawn(centre, radius))
             .collect();
-        let limits = box_limits(scene).or_else(|| bulk_limits(scene, &drawable));
+        let limits = outline_limits(scene).or_else(|| bulk_limits(scene, &drawable));
         let inside = |centre: &[f64; 3]| {
             limits
                 .is_none_or(|[low, high]| (0..3).all(|axis| (low[axis]..=high[axis]).contains(&centre[axis])))
@@ -76,16 +76,9 @@ fn can_be_drawn(centre: [f64; 3], radius: f64) -> bool {
     centre.iter().all(|x| x.abs() < 1.0e100) && radius > 0.0 && radius < 1.0e100
 }
 
-/// Limits around all boxes.
-fn box_limits(scene: &SphereScene<'_>) -> Option<[[f64; 3]; 2]> {
-    let boxes = scene.boxes.iter().filter(|outline| outline.is_finite());
-    let (low, high) = boxes.fold(None, |ends: Option<([f64; 3], [f64; 3])>, outline| {
-        let (low, high) = ends.unwrap_or((outline.low, outline.high));
-        let each = |of: fn(f64, f64) -> f64, a: [f64; 3], b: [f64; 3]| {
-            std::array::from_fn(|axis| of(a[axis], b[axis]))
-        };
-        Some((each(f64::min, low, outline.low), each(f64::max, high, outline.high)))
-    })?;
+/// Limits around all outlines.
+fn outline_limits(scene: &SphereScene<'_>) -> Option<[[f64; 3]; 2]> {
+    let [low, high] = outline::limits(&scene.edges())?;
     let longest = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
     let margin = AROUND_BOX * longest;
     Some([low.map(|x| x - margin), high.map(|x| x + margin)])

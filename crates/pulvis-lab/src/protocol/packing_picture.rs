@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use pulvis_boundary::{Cylinder, CylinderSide, WallShape};
 use pulvis_core::{ContactPartner, ParticleId, Simulation};
 use pulvis_input::scenario::Scenario;
 use pulvis_io::IoError;
-use pulvis_io::picture::{OutlineBox, SphereScene, render_spheres};
+use pulvis_io::picture::{OutlineBox, OutlineCylinder, SphereScene, render_spheres};
+use pulvis_math::Vector3;
 
 use super::setup::box_walls;
 
@@ -37,11 +39,13 @@ pub(super) fn draw(scenario: &Scenario, simulation: &Simulation, path: &Path) ->
     let title =
         scenario.title.as_ref().map_or_else(|| instant.clone(), |title| format!("{title}, {instant}"));
     let boxes = outlines(scenario, simulation, &centres);
+    let cylinders = cylinders(scenario, simulation);
     let scene = SphereScene {
         title: &title,
         bar_label: if mixture { "" } else { "contacts of each particle" },
         classes: if mixture { &names } else { &[] },
         boxes: &boxes,
+        cylinders: &cylinders,
         scale_bar: true,
         ..SphereScene::new(&centres, &radii, &values)
     };
@@ -109,6 +113,48 @@ fn outlines(scenario: &Scenario, simulation: &Simulation, centres: &[[f64; 3]]) 
             outline
         })
         .collect()
+}
+
+/// The cylinders that are there, from one end of the box or of the particles to the other.
+fn cylinders(scenario: &Scenario, simulation: &Simulation) -> Vec<OutlineCylinder> {
+    let walls = simulation.walls().iter().filter(|wall| wall.present);
+    let cylinder = |shape| if let WallShape::Cylinder(cylinder) = shape { Some(cylinder) } else { None };
+    walls
+        .filter_map(|wall| {
+            let cylinder = cylinder(wall.shape)?;
+            let [low, high] = ends(scenario, simulation, &cylinder, wall.point)?;
+            let end = |along: f64| (wall.point + cylinder.axis * along).to_array();
+            Some(OutlineCylinder { ends: [end(low), end(high)], radius: cylinder.radius })
+        })
+        .collect()
+}
+
+/// Where a cylinder begins and ends in the picture, along its axis from its reference point [m].
+fn ends(
+    scenario: &Scenario,
+    simulation: &Simulation,
+    cylinder: &Cylinder,
+    point: Vector3,
+) -> Option<[f64; 2]> {
+    let along = (0..3).find(|&axis| cylinder.axis[axis].abs() == 1.0);
+    let of_box = along.and_then(|axis| {
+        let [low, high] = faces(scenario, simulation, axis);
+        let [one, other] = [low?, high?].map(|face| (face - point[axis]) * cylinder.axis[axis]);
+        Some([one.min(other), one.max(other)])
+    });
+    of_box.or_else(|| {
+        let particles = simulation.particles();
+        let spheres = particles.positions().iter().zip(particles.radii());
+        let held = spheres.filter(|&(centre, _)| {
+            let across = (centre - point).tangential_to(cylinder.axis).norm();
+            cylinder.side == CylinderSide::Outside || across <= cylinder.radius
+        });
+        let spans = held.map(|(centre, radius)| {
+            let at = (centre - point).dot(cylinder.axis);
+            [at - radius, at + radius]
+        });
+        spans.reduce(|[low, high], [from, to]| [low.min(from), high.max(to)])
+    })
 }
 
 /// Lower and upper end of the box along an axis, as far as they are there [m].
