@@ -179,3 +179,39 @@ fn picked(table: &Table, column: &str, stage: Option<f64>, pick: &str) -> Outcom
 fn name(folder: &Path) -> String {
     folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value_of(pick: &str, stage: Option<f64>) -> f64 {
+        let table = Table::parse("stage,x,y\n1,9,1\n2,1,2\n2,4,2\n2,-2,8\n").expect("a table");
+        picked(&table, "x", stage, pick).expect("rows")
+    }
+
+    #[test]
+    fn a_demand_picks_of_the_rows_of_its_stage() {
+        let stage = Some(2.0);
+        for (pick, expected) in [("first", 1.0), ("last", -2.0), ("minimum", -2.0), ("maximum", 4.0)] {
+            assert_eq!(value_of(pick, stage), expected, "{pick}");
+        }
+        assert_eq!([value_of("mean", stage), value_of("change", stage)], [1.0, -3.0]);
+        assert_eq!([value_of("mean", None), value_of("change", None)], [3.0, -11.0]);
+    }
+
+    #[test]
+    fn a_ratio_is_one_of_picks_and_nothing_but_a_number_within_the_bounds_will_do() {
+        let demand = |column: &str, over: &str, bounds| Demand {
+            column: column.to_owned(),
+            stage: Some(2.0),
+            pick: "mean",
+            over: Some(over.to_owned()),
+            bounds,
+        };
+        let table = Table::parse("stage,x,y,z\n2,1,2,0\n2,4,2,\n2,-2,8,1\n").expect("a table");
+        assert!(meets(&table, &demand("x", "y", [0.2, 0.3])).is_ok(), "1/4");
+        let error = meets(&table, &demand("x", "y", [0.26, 0.3])).expect_err("too little");
+        assert_eq!(error, "mean x of stage 2 over that of y is 0.25, expected 0.26 to 0.3");
+        assert!(meets(&table, &demand("x", "z", [f64::NEG_INFINITY, f64::INFINITY])).is_err(), "no number");
+    }
+}
