@@ -19,7 +19,7 @@ pub fn run_all() -> Outcome {
     copy(&restitution, &root().join("experiments/restitution/restitution.png"))?;
 
     let folder = scratch("figures_reproduced")?;
-    let names = ["s1-05", "s1-09", "s1-15"];
+    let names = ["map-beta", "s1-05", "s1-06", "s1-09", "s1-11", "s1-15"];
     run(pulvis().arg("reproduce").args(names).arg("--dpi").arg("100").arg("--output").arg(&folder))?;
     for name in names {
         copy(
