@@ -182,6 +182,7 @@ fn name(folder: &Path) -> String {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
     use super::*;
 
     fn value_of(pick: &str, stage: Option<f64>) -> f64 {

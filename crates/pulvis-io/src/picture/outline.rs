@@ -81,6 +81,7 @@ pub(super) fn limits(edges: &[[Vector; 2]]) -> Option<[Vector; 2]> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
     use super::*;
 
     #[test]
