@@ -38,8 +38,8 @@ pub(super) fn draw(scenario: &Scenario, simulation: &Simulation, path: &Path) ->
     let instant = format!("t = {}", pulvis_io::plot::amount("time [s]", simulation.time()));
     let title =
         scenario.title.as_ref().map_or_else(|| instant.clone(), |title| format!("{title}, {instant}"));
-    let boxes = outlines(scenario, simulation, &centres);
     let cylinders = cylinders(scenario, simulation);
+    let boxes = outlines(scenario, simulation, &centres, &cylinders);
     let scene = SphereScene {
         title: &title,
         bar_label: if mixture { "" } else { "contacts of each particle" },
@@ -75,7 +75,12 @@ fn contacts_of_each(simulation: &Simulation) -> Vec<f64> {
 }
 
 /// The box as far as it is there: whole, or the walls that are left. Where it has been blown apart, the box of the start.
-fn outlines(scenario: &Scenario, simulation: &Simulation, centres: &[[f64; 3]]) -> Vec<OutlineBox> {
+fn outlines(
+    scenario: &Scenario,
+    simulation: &Simulation,
+    centres: &[[f64; 3]],
+    cylinders: &[OutlineCylinder],
+) -> Vec<OutlineBox> {
     let faces: [[Option<f64>; 2]; 3] = std::array::from_fn(|axis| faces(scenario, simulation, axis));
     let start = scenario.enclosure;
     let first =
@@ -105,7 +110,15 @@ fn outlines(scenario: &Scenario, simulation: &Simulation, centres: &[[f64; 3]]) 
             near.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
         [faces[axis][0].unwrap_or(low), faces[axis][1].unwrap_or(high)]
     });
+    // The circles at the ends of a cylinder show where it is cut.
+    let is_cut = |axis: usize, at: f64| {
+        let meets = |shown: &OutlineCylinder| {
+            shown.ends.iter().any(|end| (end[axis] - at).abs() < 1e-9 * shown.radius)
+        };
+        cylinders.iter().any(meets)
+    };
     let walls = (0..3).flat_map(|axis| faces[axis].into_iter().flatten().map(move |at| (axis, at)));
+    let walls = walls.filter(|&(axis, at)| !is_cut(axis, at));
     walls
         .map(|(axis, at)| {
             let mut outline = OutlineBox { low: ends.map(|end| end[0]), high: ends.map(|end| end[1]) };
