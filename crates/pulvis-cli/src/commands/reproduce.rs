@@ -126,7 +126,8 @@ fn compute(arguments: &Arguments, figures: Vec<FigureScenario>) -> Result<ExitCo
                 bar.println(describe(attempt));
                 bar.inc(1);
             }
-            None if !arguments.quiet => {
+            // What fails is told in any case.
+            None if !arguments.quiet || !attempt.passes() => {
                 // Nobody is left to be told if the standard error stream is closed.
                 let _ = writeln!(std::io::stderr(), "{}", describe(attempt));
             }
