@@ -5,7 +5,7 @@
 use pulvis_contact::catalogue::Values;
 use pulvis_contact::normal::{Kempton, Molerus, WaltonBraun};
 use pulvis_contact::theory::WaltonBraunPair;
-use pulvis_contact::{ContactModel, Luding, Normal, NormalLaw, NormalMotion, Pair};
+use pulvis_contact::{ContactModel, Luding, Normal, NormalLaw, NormalLawVisitor, NormalMotion, Pair};
 use pulvis_math::Vector3;
 use pulvis_testkit::bodies::{Couple, Sphere};
 use pulvis_testkit::loading::{Loading, assert_printed, built, refused};
@@ -158,4 +158,51 @@ fn a_tuned_plasticity_depth_moves_the_limit_and_leaves_softer_contacts_alone() {
         &values.with("phi_f", 0.05).with("tuned_phi_f", 0.5).with_choice("interpolation", "square-root"),
     );
     assert!(error.starts_with("`tuned_phi_f` is given beside another interpolation"), "{error}");
+}
+
+#[test]
+fn a_cold_contact_that_could_melt_is_one_of_luding() {
+    let values = Values::new().with("k1", 100.0).with("kp", 500.0).with("kc", 20.0).with("phi_f", 0.05);
+    // Far below the melting point.
+    let melting = values.clone().with("t_melt", 1e4).with("t_width", 10.0).with("time_scale", 1.0);
+    let pair = Pair::wall(1e-6, 1e-3);
+    let luding = Normal::build("luding", &values).unwrap().unwrap();
+    for variant in ["passive", "published"] {
+        let values = melting.clone().with_choice("variant", variant);
+        let cold = Normal::build("sinter-luding", &values).unwrap().unwrap();
+        // Loaded, unloaded and loaded again, beyond δ_p = 1.25e-4 m, along the tensile limit until the bodies part, and once
+        // more from there. On the tensile limit k2 of Luding falls, that of this law does not.
+        let turns = [0.0, 6e-5, 4.5e-5, 7e-5, 6e-5, 9e-5, 2e-4, 1.5e-4, -1e-5, 3e-5, 2e-5];
+        let path = |law: &Normal| law.accept(AlongPath { pair, turns: &turns });
+        let (expected, found) = (path(&luding), path(&cold));
+        let largest = expected.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+        assert!(largest > 0.03, "{largest}");
+        for (step, (one, other)) in expected.iter().zip(&found).enumerate() {
+            assert!(
+                (one - other).abs() < 1e-12 * largest,
+                "{variant}, step {step}: {other} N, expected {one} N"
+            );
+        }
+    }
+}
+
+/// The forces [N] of a contact along straight ways between overlaps [m].
+struct AlongPath<'a> {
+    pair: Pair,
+    turns: &'a [f64],
+}
+
+impl NormalLawVisitor for AlongPath<'_> {
+    type Output = Vec<f64>;
+
+    fn visit<N: NormalLaw>(self, law: &N) -> Vec<f64> {
+        let mut loading = Loading::new(*law, self.pair);
+        let mut forces = Vec::new();
+        for legs in self.turns.windows(2) {
+            forces.extend(
+                (1..=20).map(|step| loading.go(legs[0] + (legs[1] - legs[0]) * f64::from(step) / 20.0).force),
+            );
+        }
+        forces
+    }
 }

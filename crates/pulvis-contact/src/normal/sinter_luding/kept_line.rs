@@ -46,12 +46,13 @@ impl SinterLuding {
         if changed.any() {
             let middle = R::splat(0.5) * (before.depth + depth);
             let mut on_the_way = Losses::default();
-            let moved = self.moved(line, before.plastic_stiffness, middle, inverse_limit, &mut on_the_way);
+            let moved =
+                self.moved(line, begins, before.plastic_stiffness, middle, inverse_limit, &mut on_the_way);
             let heated = self.heated(moved, plastic, middle, inverse_limit, &mut on_the_way);
             losses = on_the_way.keep_where(changed);
             line = Line::select(changed, heated, line);
         }
-        line = self.moved(line, plastic, depth, inverse_limit, &mut losses);
+        line = self.moved(line, begins, plastic, depth, inverse_limit, &mut losses);
         State {
             memory: SinterLudingMemory {
                 elastic_stiffness: line.slope,
@@ -96,23 +97,27 @@ impl SinterLuding {
         Line { slope, rest }
     }
 
-    /// The line after a motion to an overlap.
+    /// The line after a motion to an overlap, where a contact `begins` the first one.
     #[inline(always)]
     fn moved<R: Real>(
         &self,
         line: Line<R>,
+        begins: R::Mask,
         plastic: R,
         overlap: R,
         inverse_limit: R,
         losses: &mut Losses<R>,
     ) -> Line<R> {
-        let (half, one, kc) = (R::splat(0.5), R::one(), R::splat(self.kc));
+        let (zero, half, one, kc) = (R::zero(), R::splat(0.5), R::one(), R::splat(self.kc));
         let mut line = line;
         // The limit is infinite where kp = k1.
         let reached = overlap.min(one / inverse_limit);
-        let yields = line.force(reached).gt(plastic * reached);
+        // A contact that begins lies on the line of loading itself, where to compare forces is to compare round-off.
+        let virgin = begins | (line.rest.le(zero) & line.slope.le(plastic));
+        let yields = line.force(reached).gt(plastic * reached) | virgin;
         if yields.any() {
-            let meets = line.slope * line.rest / R::select(yields, line.slope - plastic, one);
+            let steeper = line.slope - plastic;
+            let meets = line.slope * line.rest / R::select(steeper.gt(zero), steeper, one);
             let slope = line.slope.max(self.hardened(plastic, reached, inverse_limit));
             let spring = |overlap: R, slope: R| overlap * overlap * (one - plastic / slope);
             let lost = half * plastic * (spring(reached, slope) - spring(meets, line.slope));
