@@ -82,9 +82,9 @@ impl<R: Real, S: Spring<R>> SeriesSlider<R, S> {
         remembered_energy: &mut R,
     ) -> (FrictionResponse<T, R>, R::Mask) {
         let half = R::splat(0.5);
-        let stiffness = self.spring.stiffness();
         let held = *remembered_energy;
         let (carried, energy, mut lost) = self.receded(*remembered, held);
+        let stiffness = self.slope(carried, energy, motion.displacement);
         // In the half kick before the area shrank the whole force did its work.
         lost += (*remembered - carried).scaled(half).dot(motion.displacement);
         let mut damping = T::zero();
@@ -149,6 +149,21 @@ impl<R: Real, S: Spring<R>> SeriesSlider<R, S> {
             left = quotient(R::splat(0.5) * carried.norm_squared(), secant);
         }
         (carried, left, energy - left)
+    }
+
+    /// Slope dT/ds [N/m] over the step `displacement` [m] from a `force` [N] held by an `energy` [J]. A chord of a curved
+    /// spring over a long way back may be so flat that it gives more than there is; that of the energy never does.
+    #[inline(always)]
+    fn slope<T: Tangent<R>>(&self, force: T, energy: R, displacement: T) -> R {
+        let mut slope = self.spring.stiffness();
+        if let Some(curved) = self.spring.is_curved() {
+            let left = energy + (force + displacement.scaled(R::splat(0.5) * slope)).dot(displacement);
+            let overdrawn = curved & left.lt(R::zero());
+            if overdrawn.any() {
+                slope = R::select(overdrawn, self.spring.secant(force.norm_squared()), slope);
+            }
+        }
+        slope
     }
 
     /// Slip with the slider in series with spring and dashpot, −f = T + k D + γ D/dt, solved for the part D of the
