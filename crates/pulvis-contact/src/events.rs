@@ -54,10 +54,11 @@ pub fn of_dashpot<R: Real>(motion: &NormalMotion<R>, normal: &NormalResponse<R>,
     let mut applied = force.keep_where(normal.in_contact);
     let mut closing = motion.closing_rate;
     let (touching, touched) = (motion.touching, motion.touched_before());
-    let (acts, acted) = (normal.in_contact, normal.was_in_contact);
-    let meets = (acts & !acted) & (touching & !touched);
-    let parts = (acted & !acts) & (touched & !touching);
-    if (meets | parts).any() {
+    // Seldom: what tells these contacts from those that last is asked before all else.
+    if ((touching & !touched) | (touched & !touching)).any() {
+        let (acts, acted) = (normal.in_contact, normal.was_in_contact);
+        let meets = (acts & !acted) & (touching & !touched);
+        let parts = (acted & !acts) & (touched & !touching);
         let zero = R::zero();
         applied = R::select(meets, sets_in(motion, zero, force), applied);
         applied = R::select(parts, ends(motion, zero, force), applied);
