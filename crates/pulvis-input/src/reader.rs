@@ -6,6 +6,7 @@ use crate::shape::{Name, Shape};
 use crate::similar::similar;
 use crate::value::{Table, join_path};
 use crate::value_reader::ValueReader;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The words under which scenario files name a choice that decides what else belongs into a table.
@@ -16,7 +17,8 @@ pub struct TableReader<'d> {
     context: &'d Context<'d>,
     table: &'d Table,
     location: Location,
-    asked: Vec<String>,
+    /// With their numbers: there may be as many as a file has materials.
+    asked: BTreeMap<String, usize>,
     /// Unknown keys that have been reported.
     reported: Vec<String>,
 }
@@ -25,13 +27,13 @@ impl<'d> TableReader<'d> {
     pub(crate) fn new(context: &'d Context<'d>, table: &'d Table, path: String, span: Range<usize>) -> Self {
         let location = Location { span, path, replaced: false };
         context.open(&location);
-        Self { context, table, location, asked: Vec::new(), reported: Vec::new() }
+        Self { context, table, location, asked: BTreeMap::new(), reported: Vec::new() }
     }
 
     /// The value at `key`, of whatever kind, if the key is there.
     pub fn value(&mut self, key: &str) -> Option<ValueReader<'d>> {
-        if !self.asked.iter().any(|asked| asked == key) {
-            self.asked.push(key.to_owned());
+        if !self.asked.contains_key(key) {
+            self.asked.insert(key.to_owned(), self.asked.len());
         }
         let node = &self.table.entries.get(key)?.node;
         Some(ValueReader::new(self.context, node, join_path(&self.location.path, key)))
@@ -191,17 +193,19 @@ impl<'d> TableReader<'d> {
     /// Closes the table: every key that nobody asked for is reported.
     pub fn finish(self) {
         self.context.close(&self.location);
-        let is_known = |key: &str| self.asked.iter().chain(&self.reported).any(|known| known == key);
+        let is_known =
+            |key: &str| self.asked.contains_key(key) || self.reported.iter().any(|known| known == key);
+        let mut asked: Vec<&str> = self.asked.keys().map(String::as_str).collect();
+        asked.sort_unstable_by_key(|key| self.asked[*key]);
         let unknown = self.table.in_order().into_iter().filter(|(key, _)| !is_known(key));
         for (key, entry) in unknown {
             // A key that stands here already was not the one that was meant.
             let absent = |known: &&str| !self.table.entries.contains_key(*known);
-            let known = self.asked.iter().map(String::as_str).filter(absent);
+            let known = asked.iter().copied().filter(absent);
             let problem = Problem::UnknownKey { similar: similar(key, known).map(str::to_owned) };
             let path = join_path(&self.location.path, key);
             let location = Location { span: entry.key_span.clone(), path, replaced: false };
-            let help =
-                (!self.asked.is_empty()).then(|| format!("known keys here: {}", self.asked.join(", ")));
+            let help = (!asked.is_empty()).then(|| format!("known keys here: {}", asked.join(", ")));
             self.context.report(&location, problem, help);
         }
     }
