@@ -67,6 +67,7 @@ fn what_is_left_out_has_its_default() {
         timeseries: Interval::Steps(100),
         snapshots: Snapshots::StageEnds,
         plots: true,
+        clusters: false,
         checkpoints: Some(CheckpointPlan::default()),
         dimensionless: None,
     };

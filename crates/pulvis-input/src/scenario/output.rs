@@ -20,6 +20,8 @@ pub struct OutputPlan {
     pub snapshots: Snapshots,
     /// Whether plots are drawn.
     pub plots: bool,
+    /// Whether the time series tells which particles hang together.
+    pub clusters: bool,
     /// When the state is written, so that the run can be resumed; `None`: never.
     pub checkpoints: Option<CheckpointPlan>,
     /// The scales of the dimensionless columns, if these are wanted.
@@ -92,6 +94,7 @@ pub(super) fn read_output(
         timeseries: Interval::Steps(DEFAULT_STEPS),
         snapshots: Snapshots::StageEnds,
         plots: true,
+        clusters: false,
         checkpoints: Some(CheckpointPlan::default()),
         dimensionless: None,
     };
@@ -100,6 +103,7 @@ pub(super) fn read_output(
     let timeseries = table.value("timeseries").map(|value| read_interval(&value)).transpose();
     let snapshots = table.value("vtk").map(|value| read_snapshots(&value)).transpose();
     let plots = table.or("plots", Boolean, default.plots);
+    let clusters = table.or("clusters", Boolean, default.clusters);
     let checkpoints = table.value("checkpoints").map(|value| read_checkpoints(&value)).transpose();
     let dimensionless = table.optional_table("dimensionless").and_then(|scales| match scales {
         Some(scales) => read_dimensionless(scales, stages).map(Some),
@@ -111,6 +115,7 @@ pub(super) fn read_output(
         timeseries: timeseries?.unwrap_or(default.timeseries),
         snapshots: snapshots?.unwrap_or(default.snapshots),
         plots: plots?,
+        clusters: clusters?,
         checkpoints: checkpoints?.unwrap_or(default.checkpoints),
         dimensionless: dimensionless?,
     })

@@ -179,6 +179,14 @@ fn complete(
             table.refuse("until", Problem::rule(found, expected))
         })?;
     }
+    let is_servo = |control: &WallControl| matches!(control, WallControl::Motion(WallMotion::Servo(_)));
+    if until.pressure_tolerance.is_some() && !now.controls.iter().any(is_servo) {
+        let problem = Problem::rule(
+            "`pressure_tolerance` and no wall under a pressure",
+            "a wall with control = \"servo\", or no `pressure_tolerance`",
+        );
+        return Err(table.refuse("until", problem));
+    }
     reaches_strain(table, &until, walls, now)?;
     Ok(until)
 }

@@ -19,6 +19,9 @@ pub struct StopRules {
     pub kinetic_to_elastic: Option<f64>,
     /// Time before which the energies are not looked at [s].
     pub minimum_time: f64,
+    /// A sample is at rest only while the stress on every servo wall differs from the pressure at the end of its ramp by
+    /// this share at most [1].
+    pub pressure_tolerance: Option<f64>,
     /// The box has been strained so far.
     pub strain: Option<StrainRule>,
     /// The stress on a pair of walls has been reached.
@@ -28,7 +31,8 @@ pub struct StopRules {
 impl StopRules {
     /// Whether no rule is given.
     pub fn is_empty(&self) -> bool {
-        *self == Self { minimum_time: self.minimum_time, ..Self::default() }
+        let Self { minimum_time, pressure_tolerance, .. } = *self;
+        *self == Self { minimum_time, pressure_tolerance, ..Self::default() }
     }
 
     /// Whether something else than time may end the stage, so that nobody knows when.
@@ -89,6 +93,15 @@ pub(super) fn read_until(stage: &mut TableReader<'_>) -> Result<StopRules, Repor
     let kinetic_to_elastic =
         table.optional("kinetic_to_elastic", QuantityRule::of(Dimension::NONE).above(0.0));
     let minimum_time = table.optional("minimum_time", QuantityRule::of(Dimension::TIME).at_least(0.0));
+    let pressure_tolerance =
+        table.optional("pressure_tolerance", QuantityRule::of(Dimension::NONE).above(0.0));
+    let pressure_tolerance = match (pressure_tolerance, &kinetic_to_elastic) {
+        (Ok(Some(_)), Ok(None)) => {
+            let problem = Problem::rule("there is no `kinetic_to_elastic` beside it", "both or none of them");
+            Err(table.refuse("pressure_tolerance", problem))
+        }
+        (tolerance, _) => tolerance,
+    };
     let strain = table.optional_table("strain").and_then(|rule| rule.map(read_strain).transpose());
     let stress = table.optional_table("stress").and_then(|rule| rule.map(read_stress).transpose());
     let minimum_time = match (minimum_time, &kinetic_to_elastic, &time) {
@@ -109,6 +122,7 @@ pub(super) fn read_until(stage: &mut TableReader<'_>) -> Result<StopRules, Repor
         time: time?,
         kinetic_to_elastic: kinetic_to_elastic?,
         minimum_time: minimum_time?.unwrap_or(0.0),
+        pressure_tolerance: pressure_tolerance?,
         strain: strain?,
         stress: stress?,
     })
@@ -122,6 +136,9 @@ pub(super) fn write_until(writer: &mut Writer, until: &StopRules) {
     if let Some(ratio) = until.kinetic_to_elastic {
         writer.key("kinetic_to_elastic", number(ratio));
         writer.key("minimum_time", quantity(until.minimum_time, Dimension::TIME));
+        if let Some(tolerance) = until.pressure_tolerance {
+            writer.key("pressure_tolerance", number(tolerance));
+        }
     }
     if let Some(rule) = until.strain {
         writer.key(

@@ -3,6 +3,7 @@
 use pulvis_core::Simulation;
 use pulvis_input::scenario::{Scenario, WallShape};
 
+use super::clusters::{Clusters, clusters};
 use super::stage::{length, wall_force, wall_stress};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -25,40 +26,59 @@ struct Scaled {
     reference: [Option<f64>; 3],
 }
 
+/// The names of the columns of a scenario's time series.
+pub fn column_names(scenario: &Scenario) -> Vec<String> {
+    let mut columns: Vec<String> = ["step", "time", "stage"].map(str::to_owned).into();
+    let blank = pulvis_core::Ledger::default();
+    columns.extend(blank.accounts().iter().map(|(name, _)| (*name).to_owned()));
+    let totals = ["kinetic", "elastic", "dissipated", "closing_error", "relative_error"];
+    columns.extend(totals.map(str::to_owned));
+    let contacts =
+        ["particles", "contacts", "wall_contacts", "coordination", "overlap_max", "solid_fraction"];
+    columns.extend(contacts.map(str::to_owned));
+    if may_bond(scenario) {
+        columns.extend(["bonds", "broken_bonds"].map(str::to_owned));
+    }
+    if scenario.output.clusters {
+        columns.extend(["clusters", "largest_cluster"].map(str::to_owned));
+        for name in ["spans", "roughness"] {
+            columns.extend(AXES.map(|axis| format!("{name}_{axis}")));
+        }
+    }
+    columns.extend(scenario.temperature.iter().map(|_| "temperature".to_owned()));
+    columns.extend(AXES.map(|axis| format!("centre_of_mass_{axis}")));
+    columns.extend(["stress_xx", "stress_yy", "stress_zz"].map(str::to_owned));
+    for axis in AXES {
+        columns.extend(["length", "strain", "wall_stress"].map(|name| format!("{name}_{axis}")));
+    }
+    for wall in &scenario.walls {
+        let names: &[&str] = match wall.shape {
+            WallShape::Plane(_) => &["position", "force"],
+            WallShape::Cylinder(_) => &["force_x", "force_y", "force_z", "torque"],
+        };
+        columns.extend(names.iter().map(|name| format!("{name}_{}", wall.name)));
+    }
+    if scenario.output.dimensionless.is_some() {
+        columns.extend(AXES.iter().flat_map(|axis| [format!("D_{axis}"), format!("F_{axis}")]));
+    }
+    columns
+}
+
+/// Whether any contact of any stage may be bonded.
+fn may_bond(scenario: &Scenario) -> bool {
+    let mut contacts = scenario.stages.iter().flat_map(|stage| &stage.contacts);
+    contacts.any(|contact| contact.model.laws.bond.is_some())
+}
+
 impl Measure {
     /// What is to be measured of a scenario, which starts as `simulation` is.
     pub fn new(scenario: &Scenario, simulation: &Simulation) -> Self {
-        let mut columns: Vec<String> = ["step", "time", "stage"].map(str::to_owned).into();
-        let blank = pulvis_core::Ledger::default();
-        columns.extend(blank.accounts().iter().map(|(name, _)| (*name).to_owned()));
-        let totals = ["kinetic", "elastic", "dissipated", "closing_error", "relative_error"];
-        columns.extend(totals.map(str::to_owned));
-        let contacts =
-            ["particles", "contacts", "wall_contacts", "coordination", "overlap_max", "solid_fraction"];
-        columns.extend(contacts.map(str::to_owned));
-        let mut contacts = scenario.stages.iter().flat_map(|stage| &stage.contacts);
-        let bonds = contacts.any(|contact| contact.model.laws.bond.is_some());
-        if bonds {
-            columns.extend(["bonds", "broken_bonds"].map(str::to_owned));
-        }
-        columns.extend(scenario.temperature.iter().map(|_| "temperature".to_owned()));
-        columns.extend(AXES.map(|axis| format!("centre_of_mass_{axis}")));
-        columns.extend(["stress_xx", "stress_yy", "stress_zz"].map(str::to_owned));
-        for axis in AXES {
-            columns.extend(["length", "strain", "wall_stress"].map(|name| format!("{name}_{axis}")));
-        }
-        for wall in &scenario.walls {
-            let names: &[&str] = match wall.shape {
-                WallShape::Plane(_) => &["position", "force"],
-                WallShape::Cylinder(_) => &["force_x", "force_y", "force_z", "torque"],
-            };
-            columns.extend(names.iter().map(|name| format!("{name}_{}", wall.name)));
-        }
-        let scaled = scenario.output.dimensionless.map(|plan| {
-            columns.extend(AXES.iter().flat_map(|axis| [format!("D_{axis}"), format!("F_{axis}")]));
-            Scaled { length: plan.length, stiffness: plan.stiffness, reference: [None; 3] }
+        let scaled = scenario.output.dimensionless.map(|plan| Scaled {
+            length: plan.length,
+            stiffness: plan.stiffness,
+            reference: [None; 3],
         });
-        let mut measure = Self { columns, bonds, scaled };
+        let mut measure = Self { columns: column_names(scenario), bonds: may_bond(scenario), scaled };
         measure.take_reference(scenario, simulation);
         measure
     }
@@ -125,6 +145,12 @@ impl Measure {
         if self.bonds {
             let bonds = simulation.bonds();
             row.extend([bonds.intact as f64, bonds.broken as f64]);
+        }
+        if scenario.output.clusters {
+            let Clusters { count, largest, spans, roughness } = clusters(scenario, simulation);
+            row.extend([count as f64, largest as f64]);
+            row.extend(spans.map(|spans| spans.map_or(f64::NAN, |spans| f64::from(u8::from(spans)))));
+            row.extend(roughness.map(|roughness| roughness.unwrap_or(f64::NAN)));
         }
         row.extend(simulation.temperature());
         // Along a periodic direction there is no centre.

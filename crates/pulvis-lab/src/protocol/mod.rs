@@ -5,10 +5,12 @@
 
 mod check;
 mod checkpoint;
+mod clusters;
 mod disk;
 mod error;
 mod feasible;
 mod folder;
+mod fracture;
 mod measure;
 mod memory;
 mod pace;
@@ -28,10 +30,10 @@ mod under_way;
 mod warnings;
 
 pub use check::{ContactForecast, Preflight, StageForecast, Sticking, preflight};
-pub use checkpoint::{FindError, checkpoint_files};
+pub use checkpoint::{FindError, checkpoint_files, has_ended};
 pub use disk::DiskForecast;
 pub use error::{PrepareError, RunError};
-pub use measure::Measure;
+pub use measure::{Measure, column_names};
 pub use memory::{MemoryForecast, memory_forecast};
 pub use run::{Progress, RunOptions, RunSummary, StageResult, resume, run};
 pub use setup::{Prepared, StagePlan, prepare};

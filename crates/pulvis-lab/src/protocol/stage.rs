@@ -1,7 +1,7 @@
 //! When a stage ends.
 
 use pulvis_core::Simulation;
-use pulvis_input::scenario::{Crossing, Scenario, Stage, StopRules};
+use pulvis_input::scenario::{Crossing, Scenario, Stage, StopRules, WallMotion};
 
 use super::checkpoint::WatchRecord;
 use super::setup::{box_walls, extent};
@@ -152,6 +152,11 @@ impl<'a> StageWatch<'a> {
         if elapsed < self.rules.minimum_time {
             return false;
         }
+        if let Some(tolerance) = self.rules.pressure_tolerance
+            && !pressures_reached(simulation, tolerance)
+        {
+            return false;
+        }
         let ledger = simulation.ledger();
         // Without a contact the ratio means nothing: only what does not move at all is at rest then. That a sample has
         // flown apart is no rest; it stops the run.
@@ -179,6 +184,21 @@ impl<'a> StageWatch<'a> {
         };
         before.is_some_and(|before| side(stress) && !side(before))
     }
+}
+
+/// Whether the stress on every servo wall is within a share of the pressure at the end of its ramp.
+fn pressures_reached(simulation: &Simulation, tolerance: f64) -> bool {
+    let walls = simulation.walls();
+    let present = walls.iter().enumerate().filter(|(_, wall)| wall.present);
+    let mut pistons = present.filter_map(|(place, wall)| match wall.motion {
+        WallMotion::Servo(servo) => Some((place, wall, servo.pressure.to)),
+        _ => None,
+    });
+    pistons.all(|(place, wall, pressure)| {
+        let stress = wall.plane_normal().zip(wall.area.of(walls));
+        let stress = stress.map(|(normal, area)| -simulation.wall_force(place).dot(normal) / area);
+        stress.is_some_and(|stress| (stress - pressure).abs() <= tolerance * pressure.abs())
+    })
 }
 
 /// Steps that end before `time` [s] for certain, with two to spare for rounding.

@@ -171,6 +171,9 @@ fn write_output(writer: &mut Writer, output: &OutputPlan, stages: &[Stage]) {
         },
     );
     writer.key("plots", output.plots.to_string());
+    if output.clusters {
+        writer.key("clusters", "true");
+    }
     writer.key("checkpoints", checkpoints(output.checkpoints));
     if let Some(scales) = output.dimensionless {
         writer.table("output.dimensionless");

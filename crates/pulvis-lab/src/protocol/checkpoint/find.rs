@@ -8,7 +8,7 @@ use pulvis_input::scenario::StartFrom;
 use pulvis_io::checkpoint::{CheckpointError, peek_header, read_header};
 use thiserror::Error;
 
-use super::{Checkpoint, LATEST, PREVIOUS, is_checkpoint};
+use super::{Checkpoint, END_OF_RUN, LATEST, PREVIOUS, is_checkpoint};
 
 /// A checkpoint and its file.
 #[derive(Debug)]
@@ -72,6 +72,12 @@ pub fn checkpoint_files(folder: &Path) -> Vec<PathBuf> {
         (Reverse(step.unwrap_or(u64::MAX)), kind, name.clone())
     });
     names.into_iter().map(|name| folder.join(name)).collect()
+}
+
+/// Whether the run in a folder has come to its end.
+pub fn has_ended(folder: &Path) -> bool {
+    let header = peek_header(&folder.join(LATEST)).ok();
+    header.and_then(|header| value(&header, "where")).is_some_and(|place| place == END_OF_RUN)
 }
 
 /// The latest checkpoint of a folder, or the one in a file. `None` for a folder that has none.

@@ -14,10 +14,13 @@ use pulvis_io::checkpoint::{self, CheckpointError};
 use pulvis_io::table::SeriesPosition;
 use serde::{Deserialize, Serialize};
 
-pub use find::{FindError, checkpoint_files};
+pub use find::{FindError, checkpoint_files, has_ended};
 pub(super) use find::{Found, find, of_run};
 pub(super) use keeper::{Keeper, Purpose};
 use state::StateRecord;
+
+/// Where a run is that has come to its end.
+const END_OF_RUN: &str = "end of the run";
 
 /// The latest checkpoint of a run.
 pub(super) const LATEST: &str = "checkpoint.pulvis";
@@ -144,7 +147,7 @@ impl Checkpoint {
         let Self { run, state, .. } = self;
         let stage = run.stage();
         let where_it_is = match (run.complete, run.watch.is_some()) {
-            (true, _) => "end of the run",
+            (true, _) => END_OF_RUN,
             (false, false) => "end of a stage",
             (false, true) => "in a stage",
         };
