@@ -33,6 +33,9 @@ pub struct Series {
     pub(super) style: SeriesStyle,
     pub(super) points: Vec<(f64, f64)>,
     pub(super) colour: Option<usize>,
+    pub(super) thick: bool,
+    /// Where arrow heads come from and where their tips are.
+    pub(super) arrows: Vec<[(f64, f64); 2]>,
 }
 
 impl Series {
@@ -57,13 +60,29 @@ impl Series {
         style: SeriesStyle,
         points: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
-        Self { label: label.into(), style, points: points.into_iter().collect(), colour: None }
+        let (label, points) = (label.into(), points.into_iter().collect());
+        Self { label, style, points, colour: None, thick: false, arrows: Vec::new() }
     }
 
     /// Takes colour `number` of the palette instead of the next one, so that theory and simulation of one case match.
     #[must_use]
     pub fn colour(mut self, number: usize) -> Self {
         self.colour = Some(number);
+        self
+    }
+
+    /// Draws a line twice as wide as others.
+    #[must_use]
+    pub fn thick(mut self) -> Self {
+        self.thick = true;
+        self
+    }
+
+    /// Adds arrow heads, which show the direction of a curve: each points from the first of two points to the second, where
+    /// its tip is.
+    #[must_use]
+    pub fn arrows(mut self, arrows: impl IntoIterator<Item = [(f64, f64); 2]>) -> Self {
+        self.arrows.extend(arrows);
         self
     }
 }

@@ -17,6 +17,7 @@ pub(super) const TITLE_FONT: f64 = 14.0;
 
 /// Widths of the lines \[pt\].
 pub(super) const CURVE: f64 = 1.7;
+pub(super) const THICK: f64 = 3.2;
 pub(super) const FRAME: f64 = 0.9;
 
 /// Half the width of a cross, and the width of its lines \[pt\].
@@ -29,6 +30,9 @@ const LONE: f64 = 2.0;
 /// Half the width, the height and the distance of the arrows that stand for values beyond an axis \[pt\].
 const ARROW: (f64, f64) = (4.0, 7.0);
 const ARROW_DISTANCE: f64 = 10.0;
+
+/// Half the width and the height of the heads of arrows along a curve \[pt\].
+const HEAD: (f64, f64) = (4.5, 11.0);
 
 /// Rows of arrows, one a series.
 const ARROW_ROWS: u32 = 5;
@@ -230,8 +234,24 @@ impl<'a> Panel<'a> {
         if style.is_unconnected() {
             return self.symbols(number).try_for_each(|at| draw_symbol(canvas, at, colour, (style, shape)));
         }
-        strokes.iter().try_for_each(|(line, pattern)| draw_line(canvas, line, colour, *pattern))?;
+        let width = if self.chart.series[number].thick { THICK } else { CURVE };
+        strokes.iter().try_for_each(|(line, pattern)| draw_line(canvas, line, (colour, width), *pattern))?;
+        self.arrow_heads(number).try_for_each(|corners| canvas.fill(&corners, colour, 1.0))?;
         self.lone_points(number).try_for_each(|at| canvas.disc(at, LONE, colour))
+    }
+
+    /// Tip and base of each arrow head of a series whose tip is inside the frame.
+    fn arrow_heads(&self, number: usize) -> impl Iterator<Item = [Point; 3]> {
+        let (half, height) = HEAD;
+        self.chart.series[number].arrows.iter().filter_map(move |[from, to]| {
+            let (from, tip) = (self.place(*from)?, self.place(*to)?);
+            let (dx, dy) = (tip.0 - from.0, tip.1 - from.1);
+            let length = dx.hypot(dy);
+            let (dx, dy) = (dx / length, dy / length);
+            let base = (tip.0 - height * dx, tip.1 - height * dy);
+            let corner = |side: f64| (base.0 - side * half * dy, base.1 + side * half * dx);
+            (length > 0.0 && self.frame.contains(tip)).then(|| [tip, corner(1.0), corner(-1.0)])
+        })
     }
 }
 
@@ -239,13 +259,13 @@ impl<'a> Panel<'a> {
 pub(super) fn draw_line<DB: DrawingBackend>(
     canvas: &Canvas<DB>,
     line: &[Point],
-    colour: Colour,
+    (colour, width): (Colour, f64),
     pattern: Option<(f64, f64)>,
 ) -> Result<(), IoError> {
     match pattern {
-        None => canvas.line(line, colour, CURVE),
+        None => canvas.line(line, colour, width),
         Some((dash, gap)) => {
-            dashes(line, dash, gap).iter().try_for_each(|dash| canvas.line(dash, colour, CURVE))
+            dashes(line, dash, gap).iter().try_for_each(|dash| canvas.line(dash, colour, width))
         }
     }
 }

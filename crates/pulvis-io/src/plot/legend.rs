@@ -2,7 +2,7 @@
 
 use super::canvas::{Across, Along, Canvas, Setting, text_width};
 use super::chart::SeriesStyle;
-use super::draw::{DASH, MARKER_INK, Panel, TICK_FONT, draw_line, draw_symbol};
+use super::draw::{CURVE, DASH, MARKER_INK, Panel, THICK, TICK_FONT, draw_line, draw_symbol};
 use super::geometry::{Point, Rectangle};
 use super::placing;
 use crate::{Colour, IoError};
@@ -70,8 +70,9 @@ pub(super) fn draw<DB: DrawingBackend>(canvas: &Canvas<DB>, panel: &Panel<'_>) -
     for (row, &number) in extent.entries.iter().enumerate() {
         let y = top + 0.5 * PADDING + ROW * (row as f64 + 0.5);
         let start = left + PADDING;
-        let style = panel.chart.series[number].style;
-        draw_sample(canvas, style, (start, y), colours[number])?;
+        let series = &panel.chart.series[number];
+        let width = if series.thick { THICK } else { CURVE };
+        draw_sample(canvas, (series.style, width), (start, y), colours[number])?;
         let (along, across) = (Along::Start, Across::Middle);
         let setting = Setting { size: TICK_FONT, colour: Colour::grey(0x22), along, across, upwards: false };
         canvas.text((start + SAMPLE + 6.0, y), &panel.chart.series[number].label, setting)?;
@@ -81,7 +82,7 @@ pub(super) fn draw<DB: DrawingBackend>(canvas: &Canvas<DB>, panel: &Panel<'_>) -
 
 fn draw_sample<DB: DrawingBackend>(
     canvas: &Canvas<DB>,
-    style: SeriesStyle,
+    (style, width): (SeriesStyle, f64),
     (x, y): Point,
     number: usize,
 ) -> Result<(), IoError> {
@@ -90,8 +91,8 @@ fn draw_sample<DB: DrawingBackend>(
         symbol if symbol.is_unconnected() => {
             draw_symbol(canvas, (x + 0.5 * SAMPLE, y), colour, (symbol, number))
         }
-        SeriesStyle::Dashed => draw_line(canvas, &[(x, y), (x + SAMPLE, y)], colour, Some(DASH)),
-        _ => draw_line(canvas, &[(x, y), (x + SAMPLE, y)], colour, None),
+        SeriesStyle::Dashed => draw_line(canvas, &[(x, y), (x + SAMPLE, y)], (colour, CURVE), Some(DASH)),
+        _ => draw_line(canvas, &[(x, y), (x + SAMPLE, y)], (colour, width), None),
     }
 }
 
