@@ -4,6 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use pulvis_input::figure::FigureScenario;
+
 use crate::Outcome;
 use crate::expected::{Collisions, Demand, collisions, demands};
 use crate::process::{pulvis, root, run as run_command, scratch, text};
@@ -41,14 +43,17 @@ pub fn run(only: Option<&str>) -> Outcome {
 /// The folder of the papers' figures.
 const FIGURES: &str = "figures";
 
-/// The printed figures of the papers; maps and windows, which search for limits, take longer.
+/// The printed figures of the papers that are quick; maps and windows, which search for limits, take longer.
 fn reproduce(pulvis: &Path) -> Outcome {
     let folder = root().join("experiments").join(FIGURES);
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut names = Vec::new();
     for entry in std::fs::read_dir(&folder).map_err(failed)? {
         let name = entry.map_err(failed)?.file_name().to_string_lossy().into_owned();
-        if ["s0-", "s1-"].iter().any(|paper| name.starts_with(paper)) {
+        let is_printed = ["s0-", "s1-"].iter().any(|paper| name.starts_with(paper));
+        if is_printed
+            && !FigureScenario::load(folder.join(&name)).map_err(|errors| errors.to_string())?.is_long
+        {
             names.push(name);
         }
     }

@@ -62,6 +62,18 @@ impl Replacement {
     }
 }
 
+impl std::fmt::Display for Replacement {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Si(value) | Self::Number(value) => write!(formatter, "{value}"),
+            Self::Text(text) => write!(formatter, "\"{text}\""),
+            Self::Integer(value) => write!(formatter, "{value}"),
+            Self::Boolean(value) => write!(formatter, "{value}"),
+            Self::Copied(_) => formatter.write_str("a value of the file"),
+        }
+    }
+}
+
 impl From<&str> for Replacement {
     fn from(text: &str) -> Self {
         Self::Text(text.to_owned())

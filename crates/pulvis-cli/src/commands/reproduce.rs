@@ -1,6 +1,7 @@
 //! `pulvis reproduce`: the figures of papers, computed anew.
 
 use std::io::{IsTerminal, Write as _};
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -11,7 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use pulvis_input::Problem;
 use pulvis_input::figure::{FIGURE_FILE, FigureScenario};
 use pulvis_io::table::{Cell, Table};
-use pulvis_lab::reproduction::{Attempt, files, report, run_all};
+use pulvis_lab::reproduction::{Attempt, RunDone, Seats, Workplace, files, report, run_all};
 
 use super::machine::facts;
 use super::picture_file::{Resolution, exists};
@@ -37,6 +38,10 @@ pub struct Arguments {
     output: PathBuf,
     #[command(flatten)]
     resolution: Resolution,
+    /// Take the runs in the output folder that have ended and had the same scenarios; goes on with --force where it was
+    /// interrupted
+    #[arg(long)]
+    reuse: bool,
     /// Write over a report that exists
     #[arg(long)]
     force: bool,
@@ -120,20 +125,29 @@ fn compute(arguments: &Arguments, figures: Vec<FigureScenario>) -> Result<ExitCo
     let start = std::time::Instant::now();
     let count = figures.len();
     let bar = bar(arguments.quiet, count as u64);
-    let attempts =
-        run_all(figures, (&arguments.output, arguments.resolution.dpi), &stop, &mut |attempt| match &bar {
-            Some(bar) => {
-                bar.println(describe(attempt));
-                bar.inc(1);
-            }
-            // What fails is told in any case.
-            None if !arguments.quiet || !attempt.passes() => {
-                // Nobody is left to be told if the standard error stream is closed.
-                let _ = writeln!(std::io::stderr(), "{}", describe(attempt));
-            }
-            None => {}
-        });
-    if let Some(bar) = bar {
+    let tell = |run: &RunDone| match &bar {
+        Some(bar) => bar.println(describe_run(run)),
+        None if !arguments.quiet => tell_user(&describe_run(run)),
+        None => {}
+    };
+    let workplace = Workplace {
+        folder: &arguments.output,
+        stop: &stop,
+        reuse: arguments.reuse,
+        version: env!("CARGO_PKG_VERSION"),
+        tell: &tell,
+        seats: Seats::new(std::thread::available_parallelism().map_or(1, NonZero::get)),
+    };
+    let attempts = run_all(figures, &workplace, arguments.resolution.dpi, &mut |attempt| match &bar {
+        Some(bar) => {
+            bar.println(describe(attempt));
+            bar.inc(1);
+        }
+        // What fails is told in any case.
+        None if !arguments.quiet || !attempt.passes() => tell_user(&describe(attempt)),
+        None => {}
+    });
+    if let Some(bar) = &bar {
         bar.finish_and_clear();
     }
     let written = report(&attempts, facts(start.elapsed().as_secs_f64())).map_err(Failure::while_running)?;
@@ -179,6 +193,20 @@ fn bar(quiet: bool, count: u64) -> Option<ProgressBar> {
     })
 }
 
+/// A line on the standard error stream.
+fn tell_user(line: &str) {
+    // Nobody is left to be told if the stream is closed.
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// One line on a run of a figure.
+fn describe_run(run: &RunDone) -> String {
+    let RunDone { figure, data, variant, duration, is_reused } = run;
+    let of = if variant.is_empty() { String::new() } else { format!(", {variant}") };
+    let state = if *is_reused { "was there" } else { "done" };
+    format!("{figure}: run {data}{of} {state} ({duration:.1} s)")
+}
+
 /// One line on a figure that is finished.
 fn describe(attempt: &Attempt) -> String {
     let state = match &attempt.outcome {
@@ -193,8 +221,19 @@ fn describe(attempt: &Attempt) -> String {
                     )
                 })
                 .collect();
+            let unseen = reproduction.features.iter().filter(|feature| !feature.passes());
+            let unseen =
+                unseen.map(|seen| format!("{} {}: {:.3}", seen.feature.key, seen.feature.what, seen.mean()));
+            let missed: Vec<String> = missed.into_iter().chain(unseen).collect();
+            let seen = reproduction.features.iter().filter(|feature| feature.is_seen()).count();
             if missed.is_empty() {
-                format!("{} checks passed", reproduction.checks.len())
+                match (reproduction.checks.len(), reproduction.features.len()) {
+                    (checks, 0) => format!("{checks} checks passed"),
+                    (0, features) => format!("{seen} of {features} features seen, the others as known"),
+                    (checks, features) => {
+                        format!("{checks} checks passed, {seen} of {features} features seen")
+                    }
+                }
             } else {
                 format!("missed: {}", missed.join("; "))
             }

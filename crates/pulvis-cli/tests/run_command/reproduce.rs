@@ -97,3 +97,86 @@ fn a_wrong_file_is_told_before_anything_is_computed() {
     assert!(said.contains("figure.toml:") && said.contains("did you mean `theory`?"), "{said}");
     assert!(!output.exists());
 }
+
+/// A sphere between two plates, two springs of 1 kN/m one behind the other; the plate then goes in and comes back, and in
+/// another run it goes away.
+fn sphere_between_plates(to: &Path) {
+    fs::create_dir_all(to.join("springs")).unwrap();
+    let file = |name: &str, text: &str| fs::write(to.join("springs").join(name), text).unwrap();
+    file(
+        "rest.toml",
+        r#"
+[materials.grain]
+density = "2500 kg/m^3"
+[materials.plate]
+[contacts.grain-plate.normal]
+law = "linear"
+k = "1 kN/m"
+[background]
+drag = "0.1 kg/s"
+[[particles]]
+material = "grain"
+radius = { distribution = "fixed", value = "1 mm" }
+arrangement = { kind = "list", positions = [["0.995 mm", "0 mm", "0 mm"]] }
+[box]
+lower = ["0 mm", "-1 mm", "-1 mm"]
+upper = ["1.99 mm", "1 mm", "1 mm"]
+material = "plate"
+open = ["y-low", "y-high", "z-low", "z-high"]
+[[stages]]
+name = "rest"
+until = { time = "1 ms" }
+[output]
+plots = false
+"#,
+    );
+    let output = "[output]\ntimeseries = { interval = \"0.1 ms\" }\nplots = false\nclusters = true\n\
+                  dimensionless = { length = \"1 mm\", stiffness = \"1 kN/m\" }\n";
+    let cycles = "start_from = { run = \"rest-run\" }\n[[stages]]\nname = \"cycles\"\nwalls.x-high = { control = \"cosine\", \
+                  displacement = [\"-5 um\", \"0 mm\", \"0 mm\"], period = \"40 ms\", cycles = 2 }\n";
+    file("cycles.toml", &format!("{cycles}{output}"));
+    let away = "start_from = { run = \"rest-run\" }\n[[stages]]\nname = \"away\"\nuntil = { time = \"5 ms\" }\n\
+                walls.x-high = { control = \"velocity\", velocity = [\"10 mm/s\", \"0 m/s\", \"0 m/s\"] }\n";
+    file("away.toml", &format!("{away}{output}"));
+    file("figure.toml", include_str!("springs.toml"));
+}
+
+#[test]
+fn runs_that_start_from_one_another_show_the_features_that_springs_have() {
+    let from = folder("reproduce_runs");
+    sphere_between_plates(&from);
+    let output = from.join("out");
+    let first = reproduce(&from, &output, &[]);
+    assert_eq!(first.status.code(), Some(0), "{}", error(&first));
+    assert!(error(&first).contains("7 of 8 features seen"), "{}", error(&first));
+    let report = fs::read_to_string(output.join("report.md")).unwrap();
+    assert!(
+        report.contains("| soft | hard | mean |") && report.contains("not seen: springs do not"),
+        "{report}"
+    );
+    assert!(output.join("runs/springs/hard/cycles/timeseries.csv").exists());
+
+    // What is there already is taken if it is asked for, and gives the same.
+    let table = fs::read(output.join("springs.csv")).unwrap();
+    let mut again = Command::new(env!("CARGO_BIN_EXE_pulvis"));
+    again.args(["reproduce", "--force", "--reuse"]).arg("--from").arg(&from).arg("--output").arg(&output);
+    let again = again.output().unwrap();
+    assert_eq!(error(&again).matches("was there").count(), 5, "{}", error(&again));
+    assert_eq!(fs::read(output.join("springs.csv")).unwrap(), table);
+
+    // A feature that is not as it has to be fails the figure.
+    let file = from.join("springs/figure.toml");
+    let wrong = fs::read_to_string(&file).unwrap().replace("least = 0.999\n", "least = 1.001\n");
+    fs::write(&file, wrong).unwrap();
+    let missed = reproduce(&from, &from.join("missed"), &[]);
+    assert_eq!(missed.status.code(), Some(1));
+    assert!(error(&missed).contains("missed: F2 R²"), "{}", error(&missed));
+
+    // A column that no run has is told before anything is run.
+    let wrong = fs::read_to_string(&file).unwrap().replace("y = \"spans_x\"", "y = \"spans\"");
+    fs::write(&file, wrong).unwrap();
+    let unknown = reproduce(&from, &from.join("unknown"), &[]);
+    assert_eq!(unknown.status.code(), Some(1));
+    assert!(error(&unknown).contains("has no column `spans`"), "{}", error(&unknown));
+    assert!(!from.join("unknown/runs").exists());
+}

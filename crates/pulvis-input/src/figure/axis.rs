@@ -20,6 +20,8 @@ pub struct FigureAxis {
     pub label: String,
     /// Whether equal ratios have equal lengths.
     pub logarithmic: bool,
+    /// By what values are multiplied before they are shown: -1 turns an axis round.
+    pub factor: f64,
     /// Its ends, in its unit.
     pub range: Option<[f64; 2]>,
 }
@@ -80,6 +82,10 @@ pub(super) fn read_axis(mut table: TableReader<'_>, family: Family) -> Result<Fi
     };
     let label = table.optional("label", Text);
     let logarithmic = table.or("log", Boolean, false);
+    let factor = table.or("factor", QuantityRule::of(Dimension::NONE), 1.0).and_then(|factor| {
+        let zero = || table.refuse("factor", Problem::rule("everything would be zero", "another number"));
+        if factor == 0.0 { Err(zero()) } else { Ok(factor) }
+    });
     let ends = List::of(QuantityRule::of(Dimension::NONE)).exactly(2);
     let range = table.optional("range", ends);
     let (logarithmic, range) = (logarithmic?, range?);
@@ -94,5 +100,5 @@ pub(super) fn read_axis(mut table: TableReader<'_>, family: Family) -> Result<Fi
     table.finish();
     let (quantity, scale) = (quantity?, scale?);
     let label = label?.unwrap_or_else(|| scale.label(&quantity));
-    Ok(FigureAxis { quantity, scale, label, logarithmic, range })
+    Ok(FigureAxis { quantity, scale, label, logarithmic, factor: factor?, range })
 }

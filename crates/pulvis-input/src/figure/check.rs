@@ -72,6 +72,10 @@ fn read_check(
 ) -> Result<FigureCheck, Reported> {
     let index = chosen(&mut table, data)?;
     let one = data.get(index).ok_or_else(|| table.refuse("data", Problem::rule("no such data", "a name")))?;
+    if matches!(one.experiment, Experiment::Runs(_)) {
+        let problem = Problem::rule("runs have no theory to be held against", "[[features]]");
+        return Err(table.refuse("data", problem));
+    }
     let is_probe = matches!(one.experiment, Experiment::Probe(_));
     let method = table.or("method", Name(&["exact", "engine"]), "exact");
     let against = table.required("against", Name(&["theory", "exact", "reference"]));

@@ -1,26 +1,34 @@
 //! A figure of a paper that can be reproduced: its folder, what is computed, what is drawn and what is checked.
 //!
-//! The folder holds `figure.toml`, the scenarios of `pulvis collide` and `pulvis probe` that it names, and tables of
-//! reference values. Notes that several figures share, on misprints and on decisions where a paper leaves a choice, stand
+//! The folder holds `figure.toml`, the scenarios of `pulvis collide`, `pulvis probe` and `pulvis run` that it names, and tables
+//! of reference values. Notes that several figures share, on misprints and on decisions where a paper leaves a choice, stand
 //! in `notes.toml` of the folder above.
 
 mod axis;
 mod check;
 mod data;
+mod feature;
 mod notes;
+mod of_run;
 mod panel;
 mod quantity;
 mod reference;
+mod runs;
 mod series;
+mod settings;
 
 pub use axis::FigureAxis;
 pub use check::{Against, FigureCheck};
 pub use data::{Experiment, FigureData};
+pub use feature::{Feature, Measure, Value, Within};
 pub use notes::Note;
+pub use of_run::OfRun;
 pub use panel::{FigurePanel, Guide};
-pub use quantity::{Family, OF_COLLISIONS, OF_COURSES, OF_PATHS, Quantity, Scale, limited_pair};
+pub use quantity::{Family, OF_COLLISIONS, OF_COURSES, OF_PATHS, OF_RUNS, Quantity, Scale, limited_pair};
 pub use reference::ReferenceTable;
+pub use runs::{PlannedRun, Runs};
 pub use series::{Approximation, FigureSeries, Show};
+pub use settings::{Settings, Variant};
 
 use crate::context::Reported;
 use crate::document::Document;
@@ -31,8 +39,10 @@ use crate::reader::TableReader;
 use crate::shape::{Boolean, Integer, Text};
 use check::read_checks;
 use data::read_data;
+use feature::read_features;
 use notes::read_notes;
 use panel::read_panels;
+use settings::read_variants;
 use std::cell::RefCell;
 use std::path::Path;
 
@@ -58,12 +68,16 @@ pub struct FigureScenario {
     pub is_long: bool,
     /// Charts beside one another.
     pub columns: usize,
+    /// The ways in which runs are computed, at least one.
+    pub variants: Vec<Variant>,
     /// What is computed.
     pub data: Vec<FigureData>,
     /// What is drawn.
     pub panels: Vec<FigurePanel>,
     /// What is checked.
     pub checks: Vec<FigureCheck>,
+    /// What is seen in its runs.
+    pub features: Vec<Feature>,
 }
 
 /// What the parts of a figure's file share while it is read.
@@ -104,13 +118,22 @@ fn walk(mut root: TableReader<'_>, around: &Surroundings<'_>) -> Result<FigureSc
     let notes = read_notes(&mut root, around);
     let is_long = root.or("long", Boolean, false);
     let columns = root.or("columns", Integer::between(1, 3), 1);
-    let data = read_data(&mut root, around);
-    let (panels, checks) = match &data {
-        Ok(data) => (read_panels(&mut root, data, around), read_checks(&mut root, data, around)),
+    let variants = read_variants(&mut root);
+    let data = match &variants {
+        Ok(variants) => read_data(&mut root, variants, around),
+        Err(reported) => root.value("data").map_or(Err(*reported), |_| Err(*reported)),
+    };
+    let variant_list = variants.as_deref().unwrap_or_default();
+    let (panels, checks, features) = match &data {
+        Ok(data) => (
+            read_panels(&mut root, (data, variant_list), around),
+            read_checks(&mut root, data, around),
+            read_features(&mut root, data),
+        ),
         // Without the data nobody knows what can be drawn.
         Err(reported) => {
-            let _ = (root.value("panels"), root.value("checks"));
-            (Err(*reported), Err(*reported))
+            let _ = ["panels", "checks", "features"].map(|key| root.value(key).is_some());
+            (Err(*reported), Err(*reported), Err(*reported))
         }
     };
     if let (Ok(data), Ok(panels), Ok(checks)) = (&data, &panels, &checks) {
@@ -130,6 +153,8 @@ fn walk(mut root: TableReader<'_>, around: &Surroundings<'_>) -> Result<FigureSc
         data: data?,
         panels: panels?,
         checks: checks?,
+        features: features?,
+        variants: variants?,
     })
 }
 

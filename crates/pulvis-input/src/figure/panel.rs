@@ -5,6 +5,7 @@ use super::axis::{FigureAxis, read_axis};
 use super::data::FigureData;
 use super::quantity::Family;
 use super::series::{FigureSeries, families, read_series};
+use super::settings::Variant;
 use crate::context::Reported;
 use crate::list::List;
 use crate::problem::Problem;
@@ -44,7 +45,7 @@ pub struct FigurePanel {
 /// Reads all `[[panels]]`.
 pub(super) fn read_panels(
     root: &mut TableReader<'_>,
-    data: &[FigureData],
+    known: (&[FigureData], &[Variant]),
     around: &Surroundings<'_>,
 ) -> Result<Vec<FigurePanel>, Reported> {
     let tables = root.tables("panels")?;
@@ -52,13 +53,13 @@ pub(super) fn read_panels(
         let expected = "one table [[panels]] for each chart".to_owned();
         return Err(root.refuse("panels", Problem::MissingKey { key: "panels".to_owned(), expected }));
     }
-    let panels: Vec<_> = tables.into_iter().map(|table| read_panel(table, data, around)).collect();
+    let panels: Vec<_> = tables.into_iter().map(|table| read_panel(table, known, around)).collect();
     panels.into_iter().collect()
 }
 
 fn read_panel(
     mut table: TableReader<'_>,
-    data: &[FigureData],
+    known: (&[FigureData], &[Variant]),
     around: &Surroundings<'_>,
 ) -> Result<FigurePanel, Reported> {
     let title = table.or("title", Text, String::new());
@@ -68,12 +69,12 @@ fn read_panel(
     let guides = table.tables("guides");
     let [x, y] = axes;
     let (mut x, mut y, series, guides) = (x?, y?, series?, guides?);
-    let family = family(&mut x, &mut y, data);
+    let family = family(&mut x, &mut y, known.0);
     let guides: Vec<_> = guides.into_iter().map(read_guide).collect();
     let axes = (read_axis(x, family), read_axis(y, family));
     let y = axes.1.as_ref().ok();
     let series: Vec<_> =
-        series.into_iter().map(|series| read_series(series, data, family, y, around)).collect();
+        series.into_iter().map(|series| read_series(series, known, (family, y), around)).collect();
     if series.is_empty() {
         let expected = "one table [[panels.series]] for each curve".to_owned();
         return Err(table.refuse("series", Problem::MissingKey { key: "series".to_owned(), expected }));

@@ -12,6 +12,8 @@ pub enum Family {
     Course,
     /// An instant of a contact on a prescribed path.
     Path,
+    /// A row of the time series of a run.
+    Run,
 }
 
 /// A quantity that an axis can show or a check can judge.
@@ -81,6 +83,32 @@ pub const OF_PATHS: &[Quantity] = &[
     quantity("shear_force", "force against sliding", "f_{t}", "N"),
 ];
 
+/// Columns of the time series of runs that axes can show.
+pub const OF_RUNS: &[Quantity] = &[
+    quantity("time", "time", "t", "s"),
+    quantity("D_x", "displacement", "D_{x} = (L − L_{0})/d_{0}", "1"),
+    quantity("D_y", "displacement", "D_{y} = (L − L_{0})/d_{0}", "1"),
+    quantity("D_z", "displacement", "D_{z} = (L − L_{0})/d_{0}", "1"),
+    quantity("F_x", "force", "F* = F/(k_{p} d_{0})", "1"),
+    quantity("F_y", "force", "F* = F/(k_{p} d_{0})", "1"),
+    quantity("F_z", "force", "F* = F/(k_{p} d_{0})", "1"),
+    quantity("strain_x", "strain", "ε_{x}", "1"),
+    quantity("strain_y", "strain", "ε_{y}", "1"),
+    quantity("strain_z", "strain", "ε_{z}", "1"),
+    quantity("wall_stress_x", "stress on the walls", "σ_{x}", "Pa"),
+    quantity("wall_stress_y", "stress on the walls", "σ_{y}", "Pa"),
+    quantity("wall_stress_z", "stress on the walls", "σ_{z}", "Pa"),
+    quantity("kinetic", "kinetic energy", "E_{kin}", "J"),
+    quantity("elastic", "elastic energy", "E_{el}", "J"),
+    quantity("dissipated", "dissipated energy", "D", "J"),
+    quantity("contacts", "contacts of particles", "", "1"),
+    quantity("wall_contacts", "contacts with walls", "", "1"),
+    quantity("coordination", "contacts of a particle", "Z", "1"),
+    quantity("solid_fraction", "solid fraction", "φ", "1"),
+    quantity("clusters", "pieces", "", "1"),
+    quantity("largest_cluster", "particles of the largest piece", "", "1"),
+];
+
 impl Family {
     /// All its quantities.
     pub const fn quantities(self) -> &'static [Quantity] {
@@ -88,6 +116,7 @@ impl Family {
             Self::Collision => OF_COLLISIONS,
             Self::Course => OF_COURSES,
             Self::Path => OF_PATHS,
+            Self::Run => OF_RUNS,
         }
     }
 

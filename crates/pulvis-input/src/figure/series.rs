@@ -2,8 +2,10 @@
 
 use super::axis::FigureAxis;
 use super::data::{FigureData, chosen, contact};
+use super::of_run::{OfRun, read_of_run};
 use super::quantity::{Family, Quantity};
 use super::reference::{ReferenceTable, read_reference};
+use super::settings::Variant;
 use super::{Experiment, Surroundings};
 use crate::collision::CollisionScenario;
 use crate::context::Reported;
@@ -48,6 +50,8 @@ pub enum Show {
     SearchedLimits,
     /// Values of a table.
     Reference(ReferenceTable),
+    /// The time series of a run.
+    Run(OfRun),
 }
 
 /// A curve of a panel, or one for each contact or collision that fits.
@@ -69,7 +73,7 @@ pub struct FigureSeries {
     pub in_legend: bool,
 }
 
-const SHOWN: [&str; 12] = [
+const SHOWN: [&str; 13] = [
     "theory",
     "slow",
     "plastic",
@@ -82,6 +86,7 @@ const SHOWN: [&str; 12] = [
     "limits",
     "searched-limits",
     "reference",
+    "run",
 ];
 
 /// The family that a piece of data has, if a quantity of the name is in it.
@@ -89,15 +94,15 @@ pub(super) fn families(data: &FigureData) -> &'static [Family] {
     match data.experiment {
         Experiment::Collisions(_) => &[Family::Collision, Family::Course],
         Experiment::Probe(_) => &[Family::Path],
+        Experiment::Runs(_) => &[Family::Run],
     }
 }
 
 /// Reads a curve of a panel.
 pub(super) fn read_series(
     mut table: TableReader<'_>,
-    data: &[FigureData],
-    family: Family,
-    axis: Option<&FigureAxis>,
+    (data, variants): (&[FigureData], &[Variant]),
+    (family, axis): (Family, Option<&FigureAxis>),
     around: &Surroundings<'_>,
 ) -> Result<FigureSeries, Reported> {
     let index = chosen(&mut table, data);
@@ -107,7 +112,7 @@ pub(super) fn read_series(
     let (index, name) = match (index, name) {
         (Ok(index), Ok(name)) => (index, name),
         (Err(reported), _) | (_, Err(reported)) => {
-            for key in ["contact", "at", "file", "y"] {
+            for key in ["contact", "at", "file", "y", "variant", "stage", "cycles", "arrows", "thick"] {
                 let _ = table.value(key);
             }
             table.finish();
@@ -134,8 +139,14 @@ pub(super) fn read_series(
         "engine-rebounds" => Ok(Show::Regime { sticks: false }),
         "limits" => Ok(Show::Limits),
         "searched-limits" => Ok(Show::SearchedLimits),
+        "run" => read_of_run(&mut table, one, variants).map(Show::Run),
         _ => read_reference(&mut table, "file", around).map(Show::Reference),
     };
+    if matches!(&show, Ok(show) if matches!(show, Show::Run(_)) != (family == Family::Run)) {
+        let expected = if family == Family::Run { "\"run\"" } else { "another word" };
+        let found = if family == Family::Run { "this is the time series of a run" } else { "this is no run" };
+        return Err(table.refuse("show", Problem::rule(found, expected)));
+    }
     let of_whole =
         matches!(show, Ok(Show::Theory | Show::Approximation(_) | Show::Limits | Show::SearchedLimits));
     let of_whole = of_whole || matches!(show, Ok(Show::Regime { .. }));

@@ -70,6 +70,15 @@ fn drawable(panel: &FigurePanel, style: SeriesStyle, points: Vec<(f64, f64)>) ->
     points.get(first..last).unwrap_or_default().to_vec()
 }
 
+/// The way of a curve at one of its points. Waves are shorter than the part of it that is looked at.
+fn direction(points: &[(f64, f64)], place: usize) -> Option<[(f64, f64); 2]> {
+    let half = points.len() / 40 + 1;
+    let last = points.len().checked_sub(1)?;
+    let ends = [place.saturating_sub(half), (place + half).min(last)];
+    let [from, to] = ends.map(|place| points.get(place).copied());
+    Some([from?, to?])
+}
+
 struct Painter<'p> {
     panel: &'p FigurePanel,
     chart: Chart,
@@ -95,7 +104,7 @@ impl Painter<'_> {
     fn add(&mut self, series: &FigureSeries, curves: Vec<Curve>) -> Result<(), ReproductionError> {
         let alone = curves.len() == 1;
         for (number, curve) in curves.into_iter().enumerate() {
-            let Curve { identity, subject, method, style, points } = curve;
+            let Curve { identity, subject, method, style, points, arrows, thick } = curve;
             let colour = self.colour(identity, style, method);
             let subject = subject.unwrap_or_else(|| method.to_owned());
             let name = match &series.label {
@@ -111,7 +120,12 @@ impl Painter<'_> {
                     if subject == method { subject } else { format!("{method}: {subject}") }
                 });
             self.write(&in_table, identity.3, &points)?;
-            let drawn = Series::new(name, style, drawable(self.panel, style, points)).colour(colour);
+            let arrows: Vec<_> = arrows.iter().filter_map(|place| direction(&points, *place)).collect();
+            let mut drawn = Series::new(name, style, drawable(self.panel, style, points));
+            drawn = drawn.colour(colour).arrows(arrows);
+            if thick {
+                drawn = drawn.thick();
+            }
             self.chart = std::mem::take(&mut self.chart).series(drawn);
         }
         Ok(())

@@ -4,6 +4,7 @@ use super::ReproductionError;
 use super::limits::{self, Limits};
 use super::quantity::{of_approximation, of_case, of_outcome, of_probe, of_sample, of_theory};
 use super::results::{Kind, OfData, Results, course};
+use super::series::FinishedRun;
 use crate::collision::{Regime, SweepPoint, case_label, closed_form, fine_cases};
 use crate::probe::ProbeCurve;
 use pulvis_input::collision::{CollisionCase, CollisionScenario};
@@ -27,6 +28,21 @@ pub(super) struct Curve {
     pub method: &'static str,
     pub style: SeriesStyle,
     pub points: Vec<(f64, f64)>,
+    /// Points at which arrows show the direction.
+    pub arrows: Vec<usize>,
+    pub thick: bool,
+}
+
+impl Curve {
+    /// A plain curve.
+    fn plain(
+        identity: Identity,
+        subject: Option<String>,
+        (method, style): (&'static str, SeriesStyle),
+        points: Vec<(f64, f64)>,
+    ) -> Self {
+        Self { identity, subject, method, style, points, arrows: Vec::new(), thick: false }
+    }
 }
 
 /// All curves of a series, in the units of the panel's axes.
@@ -36,8 +52,10 @@ pub(super) fn curves(
     results: &Results<'_>,
 ) -> Result<Vec<Curve>, ReproductionError> {
     let Some(of_data) = results.of(series.data) else { return Ok(Vec::new()) };
-    let Kind::Collisions { scenario, exact, engine, searched } = &of_data.kind else {
-        return Ok(of_paths(panel, series, of_data));
+    let (scenario, exact, engine, searched) = match &of_data.kind {
+        Kind::Collisions { scenario, exact, engine, searched } => (scenario, exact, engine, searched),
+        Kind::Probe(_) => return Ok(of_paths(panel, series, of_data)),
+        Kind::Runs(runs) => return of_runs(panel, series, of_data, runs),
     };
     let sweep = Sweep { panel, series, of_data, scenario, exact, engine, searched };
     match panel.family {
@@ -74,7 +92,7 @@ impl Sweep<'_> {
     /// A point in the units of the axes; no number where a quantity has none.
     fn point(&self, case: &CollisionCase, of: impl Fn(&str) -> Option<f64>) -> (f64, f64) {
         let on = |name, axis: &FigureAxis| {
-            of(name).unwrap_or(f64::NAN) / self.of_data.unit(axis.scale, Some(case))
+            axis.factor * of(name).unwrap_or(f64::NAN) / self.of_data.unit(axis.scale, Some(case))
         };
         (on(self.panel.x.quantity.name, &self.panel.x), on(self.y(), &self.panel.y))
     }
@@ -93,20 +111,20 @@ impl Sweep<'_> {
                     let wanted = if *sticks { Regime::Stick } else { Regime::Rebound };
                     self.computed(contact, self.engine, |regime| regime == wanted)
                 }
-                Show::Limits | Show::SearchedLimits => Vec::new(),
+                Show::Limits | Show::SearchedLimits | Show::Run(_) => Vec::new(),
                 Show::Reference(table) => {
                     let first = self.scenario.cases.iter().find(|case| case.contact_number == contact);
                     self.reference(table, first)
                 }
             };
-            let (method, style) = method(&self.series.show, false);
+            let look = method(&self.series.show, false);
             // A map has one colour for each way to end.
             let (colour, subject) = match self.series.show {
                 Show::Regime { sticks } => (usize::from(sticks), None),
                 _ => (contact, self.subject(contact)),
             };
             let identity = (self.series.data, colour, None, self.y());
-            Ok(Curve { identity, subject, method, style, points })
+            Ok(Curve::plain(identity, subject, look, points))
         };
         self.contacts().into_iter().map(curve).collect()
     }
@@ -126,18 +144,15 @@ impl Sweep<'_> {
                 points.push(self.point(&case, |name| of_case(name, &case)));
             }
         }
-        let (method, style) = method(&self.series.show, false);
+        let look = method(&self.series.show, false);
         // Limits of something that has a name have its colour; else each limit has one.
         let colour = |number: usize| match self.series.label {
             Some(_) => (self.series.data, LIMITS, None, self.y()),
             None => (LIMITS, number, None, self.y()),
         };
-        let curve = |(number, points): (usize, Vec<(f64, f64)>)| Curve {
-            identity: colour(number),
-            subject: limits::NAMES.get(number).map(|name| (*name).to_owned()),
-            method,
-            style,
-            points,
+        let curve = |(number, points): (usize, Vec<(f64, f64)>)| {
+            let subject = limits::NAMES.get(number).map(|name| (*name).to_owned());
+            Curve::plain(colour(number), subject, look, points)
         };
         points.into_iter().enumerate().filter(|(_, points)| !points.is_empty()).map(curve).collect()
     }
@@ -194,14 +209,14 @@ impl Sweep<'_> {
                         course.iter().map(point).collect()
                     }
                 };
-                let (method, style) = method(&self.series.show, true);
+                let look = method(&self.series.show, true);
                 let mut subject = self.subject(contact);
                 if several && self.series.case.is_none() {
                     let own = case_label(self.scenario, case);
                     subject = Some(subject.map_or(own.clone(), |contact| format!("{contact}, {own}")));
                 }
                 let identity = (self.series.data, contact, several.then_some(number), self.y());
-                curves.push(Curve { identity, subject, method, style, points });
+                curves.push(Curve::plain(identity, subject, look, points));
             }
         }
         Ok(curves)
@@ -211,7 +226,7 @@ impl Sweep<'_> {
         let on = |name, axis: &FigureAxis| {
             let unit = self.of_data.unit(axis.scale, case);
             let column = table.column(name).unwrap_or_default();
-            column.into_iter().map(move |value| value / unit).collect::<Vec<_>>()
+            column.into_iter().map(move |value| axis.factor * value / unit).collect::<Vec<_>>()
         };
         let x = on(self.panel.x.quantity.name, &self.panel.x);
         x.into_iter().zip(on(self.y(), &self.panel.y)).collect()
@@ -229,18 +244,40 @@ fn of_paths(panel: &FigurePanel, series: &FigureSeries, of_data: &OfData<'_>) ->
                 _ => path.samples.iter().map(|sample| of_probe(name, sample)).collect(),
             };
             let unit = of_data.unit(axis.scale, None);
-            values.into_iter().map(move |value| value / unit).collect::<Vec<f64>>()
+            values.into_iter().map(move |value| axis.factor * value / unit).collect::<Vec<f64>>()
         };
         let (method, style) = method(&series.show, true);
-        Curve {
-            identity: (series.data, number, None, y),
-            subject: (paths.len() > 1).then(|| path.label.clone()),
-            method: if method == "exact" { "computed" } else { method },
-            style,
-            points: on(panel.x.quantity.name, &panel.x).into_iter().zip(on(y, &panel.y)).collect(),
-        }
+        let look = (if method == "exact" { "computed" } else { method }, style);
+        let subject = (paths.len() > 1).then(|| path.label.clone());
+        let points = on(panel.x.quantity.name, &panel.x).into_iter().zip(on(y, &panel.y)).collect();
+        Curve::plain((series.data, number, None, y), subject, look, points)
     };
     paths.iter().enumerate().filter(chosen).map(curve).collect()
+}
+
+/// A curve for each variant that is chosen.
+fn of_runs(
+    panel: &FigurePanel,
+    series: &FigureSeries,
+    of_data: &OfData<'_>,
+    runs: &[FinishedRun<'_>],
+) -> Result<Vec<Curve>, ReproductionError> {
+    let Show::Run(show) = &series.show else { return Ok(Vec::new()) };
+    let y = series.y.unwrap_or(panel.y.quantity).name;
+    let mut curves = Vec::new();
+    for run in runs.iter().filter(|run| show.variant.is_none_or(|only| only == run.variant)) {
+        let (across, up) = (run.column(panel.x.quantity.name)?, run.column(y)?);
+        let rows = run.drawn(show);
+        let points = rows.iter().map(|row| (panel.x.factor * row.at(across), panel.y.factor * row.at(up)));
+        let identity = (series.data, 0, None, y);
+        let look = method(&series.show, true);
+        let mut curve = Curve::plain(identity, Some(of_data.data.name.clone()), look, points.collect());
+        let first = |phase: &f64| rows.iter().position(|row| row.phase >= *phase);
+        curve.arrows = show.arrows.iter().filter_map(first).collect();
+        curve.thick = show.thick;
+        curves.push(curve);
+    }
+    Ok(curves)
 }
 
 /// What a series is in words, and how it looks.
@@ -259,5 +296,6 @@ fn method(show: &Show, course: bool) -> (&'static str, SeriesStyle) {
         Show::Limits => ("theory", SeriesStyle::Line),
         Show::SearchedLimits => ("searched by collisions", SeriesStyle::Rings),
         Show::Reference(_) => ("reference", SeriesStyle::Rings),
+        Show::Run(_) => ("run", SeriesStyle::Line),
     }
 }

@@ -3,7 +3,7 @@
 use super::judge::Judged;
 use super::run::Attempt;
 use super::{Reproduction, ReproductionError};
-use pulvis_input::figure::FigureData;
+use pulvis_input::figure::{Experiment, Feature, FigureData, FigureScenario};
 use pulvis_io::report::{Block, Report, Section, SummaryRow, Verdict};
 use pulvis_io::table::{Cell, Table, significant};
 
@@ -12,7 +12,7 @@ const LEAD: &str = "Figures of the two papers on the contact model for adhesive,
     S1: A. Singh, V. Magnanimo, S. Luding, Contact model for sticking of adhesive meso-particles, arXiv:1503.03720. \
     S0: the same authors, Sticking of adhesive particles in elasto-plastic collisions. Lines are closed forms unless the \
     legend says otherwise. Rings: the exact method, good to about 1e-12. Crosses: the engine's integrator at the automatic \
-    time step, 50 steps in the shortest contact time.";
+    time step, 50 steps in the shortest contact time. Figures of many particles show time series of the engine.";
 
 /// Heads of the summary.
 const SUMMARY: [&str; 7] = [
@@ -67,13 +67,20 @@ fn summary(attempt: &Attempt) -> SummaryRow {
         })
     };
     let figure = &attempt.figure;
+    let features = attempt.outcome.as_ref().map(|reproduction| reproduction.features.as_slice());
+    let features = features.unwrap_or_default();
+    let seen = features.iter().filter(|feature| feature.is_seen()).count();
+    let of_engine = match features.len() {
+        0 => worst(true),
+        count => format!("{seen} of {count} features seen"),
+    };
     SummaryRow {
         cells: vec![
             figure.name.clone(),
             figure.title.clone(),
             figure.reproduces.join(", "),
             worst(false),
-            worst(true),
+            of_engine,
             format!("{:.1} s", attempt.duration),
         ],
         verdict: verdict(attempt),
@@ -97,12 +104,13 @@ fn section(attempt: &Attempt) -> Result<Section, ReproductionError> {
             blocks.push(remark("Compared with the paper.", &figure.compared));
             blocks.extend(figure.notes.iter().map(|note| remark(&format!("{}.", note.key), &note.text)));
             blocks.extend(checks(reproduction)?);
+            blocks.extend(features(figure, reproduction)?);
             blocks.push(Block::Files(files(&figure.name)));
         }
         Err(error) => blocks.push(remark("This figure could not be computed.", &error.to_string())),
     }
     blocks.push(remark("Command.", &format!("pulvis reproduce {}", figure.name)));
-    blocks.extend(figure.data.iter().map(listing));
+    blocks.extend(listings(figure));
     Ok(Section {
         anchor: figure.name.clone(),
         title: format!("{}: {}", figure.name, figure.title),
@@ -146,8 +154,89 @@ fn checks(reproduction: &Reproduction) -> Result<Option<Block>, ReproductionErro
     Ok(Some(Block::Table(table)))
 }
 
-/// The scenario, which holds all parameters.
-fn listing(data: &FigureData) -> Block {
-    let name = data.file.file_name().unwrap_or_default().to_string_lossy();
-    Block::Listing { head: format!("Parameters: {name}"), text: data.text.clone() }
+/// What is seen in runs, with a column for each variant.
+fn features(
+    figure: &FigureScenario,
+    reproduction: &Reproduction,
+) -> Result<Option<Block>, ReproductionError> {
+    let seen = &reproduction.features;
+    if seen.is_empty() {
+        return Ok(None);
+    }
+    let used =
+        |number: &usize| seen.iter().any(|one| one.values.iter().any(|(variant, _)| variant == number));
+    let variants: Vec<usize> = (0..figure.variants.len()).filter(used).collect();
+    let name = |number: &usize| {
+        let name = figure.variants.get(*number).map_or("", |variant| variant.name.as_str());
+        if name.is_empty() { "value".to_owned() } else { name.to_owned() }
+    };
+    let several = variants.len() > 1;
+    let mut columns = vec!["feature".to_owned(), "what".to_owned(), "asked for".to_owned()];
+    columns.extend(variants.iter().map(name));
+    columns.extend(["mean", "spread"].into_iter().filter(|_| several).map(str::to_owned));
+    columns.extend(["verdict", "why these bounds"].map(str::to_owned));
+    let mut table = Table::new(columns);
+    for one in seen {
+        let feature = &one.feature;
+        let of_variant = |number: &usize| {
+            let value = one.values.iter().find(|(variant, _)| variant == number);
+            value.map_or(Cell::from(""), |(_, value)| marked(*value, one.allows(*value)))
+        };
+        let mut row = vec![Cell::from(feature.key.as_str()), Cell::from(feature.what.as_str())];
+        row.push(Cell::from(bounds(feature)));
+        row.extend(variants.iter().map(of_variant));
+        if several {
+            row.extend([Cell::from(one.mean()), Cell::from(one.deviation())]);
+        }
+        let verdict = match (one.is_seen(), &feature.known_to_miss) {
+            (true, _) => "seen".to_owned(),
+            (false, Some(reason)) => format!("not seen: {reason}"),
+            (false, None) => Verdict::Missed.word().to_owned(),
+        };
+        row.extend([Cell::from(verdict), Cell::from(feature.why.as_str())]);
+        table.push(row)?;
+    }
+    Ok(Some(Block::Table(table)))
+}
+
+/// A value; a mark stands behind one that is not as it has to be.
+fn marked(value: f64, is_allowed: bool) -> Cell {
+    if is_allowed { Cell::from(value) } else { Cell::from(format!("{} (!)", significant(value, 3))) }
+}
+
+/// Bounds in words.
+fn bounds(feature: &Feature) -> String {
+    let [least, most] = [feature.least, feature.most].map(|bound| significant(bound, 3));
+    match (feature.least.is_finite(), feature.most.is_finite()) {
+        (true, true) => format!("{least} to {most}"),
+        (true, false) => format!("at least {least}"),
+        _ => format!("at most {most}"),
+    }
+}
+
+/// The scenarios, which hold all parameters; each file once.
+fn listings(figure: &FigureScenario) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    for (number, data) in figure.data.iter().enumerate() {
+        let own = figure.data.iter().filter(|other| other.file == data.file);
+        let is_first = figure.data.iter().position(|other| other.file == data.file) == Some(number);
+        if is_first {
+            let changed: Vec<String> = own.filter_map(changes).collect();
+            let changed =
+                if changed.is_empty() { String::new() } else { format!(" ({})", changed.join("; ")) };
+            let name = data.file.file_name().unwrap_or_default().to_string_lossy();
+            blocks.push(Block::Listing {
+                head: format!("Parameters: {name}{changed}"),
+                text: data.text.clone(),
+            });
+        }
+    }
+    blocks
+}
+
+/// What a figure sets in a scenario.
+fn changes(data: &FigureData) -> Option<String> {
+    let Experiment::Runs(runs) = &data.experiment else { return None };
+    let set: Vec<String> = runs.set.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+    (!set.is_empty()).then(|| format!("{}: {}", data.name, set.join(", ")))
 }

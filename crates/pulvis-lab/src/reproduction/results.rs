@@ -1,7 +1,10 @@
 //! All that the scenarios of a figure compute.
 
 use super::ReproductionError;
+use super::chain::{finished, run_chain};
 use super::limits::{self, Limits};
+use super::series::FinishedRun;
+use super::workplace::Workplace;
 use crate::collision::{
     Collision, Observation, Sample, Sampling, SweepPoint, closed_form, collide, drawn_course,
     sampling_interval,
@@ -35,10 +38,14 @@ pub(super) enum Kind<'f> {
         searched: Vec<(usize, Limits)>,
     },
     Probe(Vec<ProbeCurve>),
+    /// One for each variant.
+    Runs(Vec<FinishedRun<'f>>),
 }
 
 impl<'f> Results<'f> {
-    pub fn compute(figure: &'f FigureScenario) -> Result<Self, ReproductionError> {
+    pub fn compute(figure: &'f FigureScenario, workplace: &Workplace<'_>) -> Result<Self, ReproductionError> {
+        run_chain(figure, workplace)?;
+        let _seat = workplace.seats.take();
         let uses_engine = |number: usize| {
             let drawn = figure.panels.iter().flat_map(|panel| &panel.series);
             let mut drawn = drawn.filter(|series| series.data == number);
@@ -56,6 +63,7 @@ impl<'f> Results<'f> {
         let of = |(number, data): (usize, &'f FigureData)| {
             let kind = match &data.experiment {
                 Experiment::Probe(scenario) => Kind::Probe(probe(scenario)?),
+                Experiment::Runs(runs) => Kind::Runs(finished(figure, number, runs, workplace)?),
                 Experiment::Collisions(scenario) => Kind::Collisions {
                     scenario,
                     exact: points(scenario, false)?,

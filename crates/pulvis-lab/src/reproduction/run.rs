@@ -1,10 +1,9 @@
 //! Many figures, on all processors.
 
-use super::{Reproduction, ReproductionError, reproduce};
-use pulvis_input::figure::FigureScenario;
+use super::{Reproduction, ReproductionError, Workplace, reproduce};
+use pulvis_input::figure::{Experiment, FigureScenario};
 use std::num::NonZero;
-use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::time::Instant;
 
@@ -26,32 +25,39 @@ impl Attempt {
     }
 }
 
-/// Computes figures and writes picture, with `dpi` pixels to the inch, and table of each into `folder`, which exists. A figure that fails does not stop the
-/// others. `done` is told of each figure that is finished. Figures that have not begun when `stop` is set are left out.
+/// Computes figures and writes picture, with `dpi` pixels to the inch, and table of each into the folder of the workplace,
+/// which exists. A figure that fails does not stop the others. `done` is told of each figure that is finished. Figures that
+/// have not begun when the workplace is stopped are left out.
 pub fn run_all(
     figures: Vec<FigureScenario>,
-    (folder, dpi): (&Path, u32),
-    stop: &AtomicBool,
+    workplace: &Workplace<'_>,
+    dpi: u32,
     done: &mut dyn FnMut(&Attempt),
 ) -> Vec<Attempt> {
     let threads = std::thread::available_parallelism().map_or(1, NonZero::get).min(figures.len());
+    // Runs take longest and keep all processors busy: they come first.
+    let mut order: Vec<usize> = (0..figures.len()).collect();
+    order.sort_by_key(|number| figures.get(*number).is_some_and(|figure| !has_runs(figure)));
     let next = AtomicUsize::new(0);
     let mut attempts: Vec<(usize, Attempt)> = Vec::with_capacity(figures.len());
     std::thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
         for _ in 0..threads {
-            let (sender, next, figures) = (sender.clone(), &next, &figures);
+            let (sender, next, figures, order) = (sender.clone(), &next, &figures, &order);
             scope.spawn(move || {
-                while !stop.load(Ordering::Relaxed) {
-                    let number = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(figure) = figures.get(number) else { break };
+                while !workplace.stop.load(Ordering::Relaxed) {
+                    let Some(number) = order.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
+                    let Some(figure) = figures.get(*number) else { break };
                     // Nobody listens any more only if the receiving side is gone, and then nothing matters.
-                    let _ = sender.send((number, attempt(figure, folder, dpi)));
+                    let _ = sender.send((*number, attempt(figure, workplace, dpi)));
                 }
             });
         }
         drop(sender);
         for (number, attempt) in receiver {
+            if matches!(attempt.outcome, Err(ReproductionError::Interrupted)) {
+                continue;
+            }
             done(&attempt);
             attempts.push((number, attempt));
         }
@@ -60,10 +66,14 @@ pub fn run_all(
     attempts.into_iter().map(|(_, attempt)| attempt).collect()
 }
 
-fn attempt(figure: &FigureScenario, folder: &Path, dpi: u32) -> Attempt {
+fn has_runs(figure: &FigureScenario) -> bool {
+    figure.data.iter().any(|data| matches!(data.experiment, Experiment::Runs(_)))
+}
+
+fn attempt(figure: &FigureScenario, workplace: &Workplace<'_>, dpi: u32) -> Attempt {
     let start = Instant::now();
-    let outcome = reproduce(figure).and_then(|reproduction| {
-        let file = |ending: &str| folder.join(format!("{}.{ending}", figure.name));
+    let outcome = reproduce(figure, workplace).and_then(|reproduction| {
+        let file = |ending: &str| workplace.folder.join(format!("{}.{ending}", figure.name));
         reproduction.picture.clone().dpi(dpi).write(&file("png"))?;
         reproduction.picture.write(&file("svg"))?;
         reproduction.table.write(&file("csv"))?;

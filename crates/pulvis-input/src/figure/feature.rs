@@ -1,0 +1,248 @@
+//! Features of runs: numbers out of their time series, and the bounds between which they have to lie.
+
+use super::Experiment;
+use super::data::{FigureData, chosen};
+use crate::context::Reported;
+use crate::list::List;
+use crate::problem::Problem;
+use crate::quantity::QuantityRule;
+use crate::reader::TableReader;
+use crate::scenario::{Stage, WallControl, WallMotion};
+use crate::shape::{Choice, Text};
+use pulvis_math::Dimension;
+
+/// What is seen in a run, as a number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Feature {
+    /// Its short name.
+    pub key: String,
+    /// What it is, in words.
+    pub what: String,
+    /// The number.
+    pub measure: Measure,
+    /// By what it is divided.
+    pub over: Option<Measure>,
+    /// The least value; minus infinity where none is asked for.
+    pub least: f64,
+    /// The largest value.
+    pub most: f64,
+    /// Where the bounds come from.
+    pub why: String,
+    /// Why it is known to be missed; then a miss is reported and fails nothing.
+    pub known_to_miss: Option<String>,
+}
+
+/// A number out of rows of a time series.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measure {
+    /// Index of the data.
+    pub data: usize,
+    /// How it is made of the rows.
+    pub value: Value,
+    /// The column along the horizontal axis, for those values that need one.
+    pub x: String,
+    /// The column that counts.
+    pub y: String,
+    /// Rows of one stage only: its index.
+    pub stage: Option<usize>,
+    /// Part of the cycles of the wall that moves in the stage, in cycles from its start.
+    pub cycles: Option<[f64; 2]>,
+    /// Rows only in which a column lies between two numbers.
+    pub within: Option<Within>,
+}
+
+/// Rows in which a column lies between two numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Within {
+    /// The column.
+    pub column: String,
+    /// The two numbers.
+    pub ends: [f64; 2],
+}
+
+/// How a number is made of rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Value {
+    /// y in the first row.
+    First,
+    /// y in the last row.
+    Last,
+    /// The least y.
+    Minimum,
+    /// The largest y.
+    Maximum,
+    /// The mean of y.
+    Mean,
+    /// The last y less the first one.
+    Change,
+    /// x where y is least.
+    WhereMinimum,
+    /// x where y is largest.
+    WhereMaximum,
+    /// x where y is zero for the first time, by a straight line between rows; where it never is, x where it is nearest to zero.
+    Zero,
+    /// The slope of y over x by least squares.
+    Slope,
+    /// R² of that straight line.
+    Straightness,
+    /// The largest ∮ y dx of a cycle, over the ranges of x and y in the stage.
+    LoopArea,
+    /// How much y differs between the ends of cycles, as means over the last tenth of each, over its range in the stage.
+    Drift,
+    /// The largest of the ratios of the largest y of a cycle to that of the cycle before.
+    Growth,
+}
+
+impl Value {
+    /// Names in a figure's file.
+    const NAMED: [(&'static str, Self); 14] = [
+        ("first", Self::First),
+        ("last", Self::Last),
+        ("minimum", Self::Minimum),
+        ("maximum", Self::Maximum),
+        ("mean", Self::Mean),
+        ("change", Self::Change),
+        ("where-minimum", Self::WhereMinimum),
+        ("where-maximum", Self::WhereMaximum),
+        ("zero", Self::Zero),
+        ("slope", Self::Slope),
+        ("straightness", Self::Straightness),
+        ("loop-area", Self::LoopArea),
+        ("drift", Self::Drift),
+        ("growth", Self::Growth),
+    ];
+
+    /// Whether it compares whole cycles.
+    pub fn is_of_cycles(self) -> bool {
+        matches!(self, Self::LoopArea | Self::Drift | Self::Growth)
+    }
+}
+
+/// Reads all `[[features]]`.
+pub(super) fn read_features(
+    root: &mut TableReader<'_>,
+    data: &[FigureData],
+) -> Result<Vec<Feature>, Reported> {
+    let tables = root.tables("features")?;
+    let features: Vec<_> = tables.into_iter().map(|table| read_feature(table, data)).collect();
+    features.into_iter().collect()
+}
+
+fn read_feature(mut table: TableReader<'_>, data: &[FigureData]) -> Result<Feature, Reported> {
+    let key = table.required("key", Text);
+    let what = table.required("what", Text);
+    let why = table.required("why", Text);
+    let known_to_miss = table.optional("known_to_miss", Text);
+    let least = table.optional("least", Dimension::NONE);
+    let most = table.optional("most", Dimension::NONE);
+    let measure = read_measure(&mut table, data, None);
+    let over = table.optional_table("over").and_then(|over| {
+        let Some(mut over) = over else { return Ok(None) };
+        let read = read_measure(&mut over, data, measure.as_ref().ok());
+        over.finish();
+        read.map(Some)
+    });
+    let bounds =
+        match (least, most) {
+            (Ok(None), Ok(None)) => {
+                let problem = Problem::rule("a feature that nothing is asked of", "`least`, `most` or both");
+                Err(table.refuse("", problem))
+            }
+            (Ok(Some(least)), Ok(Some(most))) if least > most => Err(table
+                .refuse("least", Problem::rule(format!("{least} is above most = {most}"), "least <= most"))),
+            (Ok(least), Ok(most)) => Ok([least.unwrap_or(f64::NEG_INFINITY), most.unwrap_or(f64::INFINITY)]),
+            (Err(reported), _) | (_, Err(reported)) => Err(reported),
+        };
+    table.finish();
+    let [least, most] = bounds?;
+    Ok(Feature {
+        key: key?,
+        what: what?,
+        measure: measure?,
+        over: over?,
+        least,
+        most,
+        why: why?,
+        known_to_miss: known_to_miss?,
+    })
+}
+
+/// Reads a measure; what it does not say is as in `base`, if there is one.
+fn read_measure(
+    table: &mut TableReader<'_>,
+    data: &[FigureData],
+    base: Option<&Measure>,
+) -> Result<Measure, Reported> {
+    let index = match base {
+        Some(base) if table.value("data").is_none() => Ok(base.data),
+        _ => chosen(table, data),
+    };
+    let (value, y) = match base {
+        Some(base) => {
+            (table.or("value", Choice(&Value::NAMED), base.value), table.or("y", Text, base.y.clone()))
+        }
+        None => (table.required("value", Choice(&Value::NAMED)), table.required("y", Text)),
+    };
+    let x = table.or("x", Text, base.map_or_else(|| "time".to_owned(), |base| base.x.clone()));
+    let ends = || List::of(QuantityRule::of(Dimension::NONE)).exactly(2);
+    let cycles = table.optional("cycles", ends()).map(|ends| ends.as_deref().and_then(pair));
+    let within = table.optional_table("within").and_then(|within| within.map(read_within).transpose());
+    let stage = table.optional("stage", Text);
+    let index = index?;
+    let Some(FigureData { experiment: Experiment::Runs(runs), name, .. }) = data.get(index) else {
+        return Err(table.refuse("data", Problem::rule("no run", "data whose file has [[stages]]")));
+    };
+    let stages = runs.planned.first().map(|run| run.scenario.stages.as_slice()).unwrap_or_default();
+    let same_data = base.filter(|base| base.data == index);
+    let stage = chosen_stage(table, stage?, stages, same_data.and_then(|base| base.stage))?;
+    let value = value?;
+    let cycles = cycles?.or(base.and_then(|base| base.cycles));
+    if (cycles.is_some() || value.is_of_cycles())
+        && !stage.and_then(|stage| stages.get(stage)).is_some_and(goes_through_cycles)
+    {
+        let found = format!("no wall of `{name}` goes through cycles there");
+        let problem = Problem::rule(found, "a `stage` in which a wall moves by control = \"cosine\"");
+        return Err(table.refuse(if cycles.is_some() { "cycles" } else { "value" }, problem));
+    }
+    let within = within?.or(base.and_then(|base| base.within.clone()));
+    Ok(Measure { data: index, value, x: x?, y: y?, stage, cycles, within })
+}
+
+/// The index of the stage that is named; without a name that of the only one, or `default`.
+pub(super) fn chosen_stage(
+    table: &TableReader<'_>,
+    named: Option<String>,
+    stages: &[Stage],
+    default: Option<usize>,
+) -> Result<Option<usize>, Reported> {
+    match (named, stages) {
+        (None, [_]) => Ok(Some(0)),
+        (None, _) => Ok(default),
+        (Some(named), stages) => {
+            let position = stages.iter().position(|stage| stage.name == named);
+            position.map(Some).ok_or_else(|| {
+                let known: Vec<&str> = stages.iter().map(|stage| stage.name.as_str()).collect();
+                table.refuse("stage", Problem::unknown_choice(&named, &known))
+            })
+        }
+    }
+}
+
+/// Whether a wall begins to move by a cosine in a stage.
+pub(super) fn goes_through_cycles(stage: &Stage) -> bool {
+    let is_cosine = |control: &WallControl| matches!(control, WallControl::Motion(WallMotion::Cosine(_)));
+    stage.controls.iter().any(|(_, control)| is_cosine(control))
+}
+
+/// A pair of numbers.
+pub(super) fn pair(numbers: &[f64]) -> Option<[f64; 2]> {
+    numbers.try_into().ok()
+}
+
+fn read_within(mut table: TableReader<'_>) -> Result<Within, Reported> {
+    let column = table.required("column", Text);
+    let from = table.required("from", Dimension::NONE);
+    let to = table.required("to", Dimension::NONE);
+    table.finish();
+    Ok(Within { column: column?, ends: [from?, to?] })
+}
