@@ -7,7 +7,6 @@ mod check_docs;
 mod ci;
 mod expected;
 mod experiments;
-mod features;
 mod figures;
 mod process;
 mod scenarios;
@@ -27,7 +26,6 @@ usage: cargo xtask <task>
   slow                 every law in beds of 1000 grains, 200 kills of runs, and a hundred times as many random paths (half an hour)
   ci                   everything that must hold before a change is merged
   experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
-  features FOLDER      says what is seen in the tablet's run in FOLDER, and whether it is what was asked for
   scenarios            shows every good and bad scenario of the tests to the pulvis command
   loom                 tests threads in every order of their operations (loom, some switches between threads)
   miri                 looks for undefined behaviour in what threads share, where a nightly Miri is installed
@@ -47,7 +45,6 @@ fn main() -> ExitCode {
         ["ci"] => ci::run_all(),
         ["experiments"] => experiments::run(None),
         ["experiments", folder] => experiments::run(Some(folder)),
-        ["features", folder] => features::run(folder),
         ["scenarios"] => scenarios::run(),
         ["loom"] => threads::loom(),
         ["miri"] => threads::miri(),

@@ -168,7 +168,7 @@ fn compute(arguments: &Arguments, figures: Vec<FigureScenario>) -> Result<ExitCo
 /// Creates the output folder, in which nothing may be written over.
 fn prepare(arguments: &Arguments, figures: &[FigureScenario]) -> Result<(), Failure> {
     let folder = &arguments.output;
-    let own = figures.iter().flat_map(|figure| files(&figure.name));
+    let own = figures.iter().flat_map(files);
     let mut all = ["report.html", "report.md"].map(str::to_owned).into_iter().chain(own);
     if let Some(file) = all.find(|file| !arguments.force && folder.join(file).exists()) {
         return Err(exists(&folder.join(file)));

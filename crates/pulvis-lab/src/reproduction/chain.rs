@@ -216,7 +216,8 @@ pub(super) fn finished<'f>(
 ) -> Result<Vec<FinishedRun<'f>>, ReproductionError> {
     let read = |run: &'f PlannedRun| {
         let folder = folder(figure, workplace, Task { data, variant: run.variant });
-        FinishedRun::read(run.variant, &run.scenario, &folder)
+        let name = figure.variants.get(run.variant).map(|variant| variant.name.clone()).unwrap_or_default();
+        FinishedRun::read((run.variant, name), &run.scenario, &folder)
     };
     runs.planned.iter().map(read).collect()
 }

@@ -265,13 +265,16 @@ fn of_runs(
     let Show::Run(show) = &series.show else { return Ok(Vec::new()) };
     let y = series.y.unwrap_or(panel.y.quantity).name;
     let mut curves = Vec::new();
-    for run in runs.iter().filter(|run| show.variant.is_none_or(|only| only == run.variant)) {
+    let shown = || runs.iter().filter(|run| show.variant.is_none_or(|only| only == run.variant));
+    let several = shown().count() > 1;
+    for run in shown() {
         let (across, up) = (run.column(panel.x.quantity.name)?, run.column(y)?);
         let rows = run.drawn(show);
         let points = rows.iter().map(|row| (panel.x.factor * row.at(across), panel.y.factor * row.at(up)));
-        let identity = (series.data, 0, None, y);
+        let identity = (series.data, if several { run.variant } else { 0 }, None, y);
         let look = method(&series.show, true);
-        let mut curve = Curve::plain(identity, Some(of_data.data.name.clone()), look, points.collect());
+        let name = if several { &run.variant_name } else { &of_data.data.name };
+        let mut curve = Curve::plain(identity, Some(name.clone()), look, points.collect());
         let first = |phase: &f64| rows.iter().position(|row| row.phase >= *phase);
         curve.arrows = show.arrows.iter().filter_map(first).collect();
         curve.thick = show.thick;

@@ -42,8 +42,19 @@ pub fn report(attempts: &[Attempt], facts: Vec<(String, String)>) -> Result<Repo
 }
 
 /// Names of the files that belong to a figure.
-pub fn files(name: &str) -> Vec<String> {
-    ["png", "svg", "csv"].iter().map(|ending| format!("{name}.{ending}")).collect()
+pub fn files(figure: &FigureScenario) -> Vec<String> {
+    let name = &figure.name;
+    let mut files: Vec<String> =
+        ["png", "svg", "csv"].iter().map(|ending| format!("{name}.{ending}")).collect();
+    if !figure.features.is_empty() {
+        files.push(feature_file(figure));
+    }
+    files
+}
+
+/// The file of what is seen in runs.
+pub(super) fn feature_file(figure: &FigureScenario) -> String {
+    format!("{}-features.csv", figure.name)
 }
 
 fn verdict(attempt: &Attempt) -> Verdict {
@@ -104,8 +115,8 @@ fn section(attempt: &Attempt) -> Result<Section, ReproductionError> {
             blocks.push(remark("Compared with the paper.", &figure.compared));
             blocks.extend(figure.notes.iter().map(|note| remark(&format!("{}.", note.key), &note.text)));
             blocks.extend(checks(reproduction)?);
-            blocks.extend(features(figure, reproduction)?);
-            blocks.push(Block::Files(files(&figure.name)));
+            blocks.extend(feature_table(figure, reproduction)?.map(Block::Table));
+            blocks.push(Block::Files(files(figure)));
         }
         Err(error) => blocks.push(remark("This figure could not be computed.", &error.to_string())),
     }
@@ -154,11 +165,11 @@ fn checks(reproduction: &Reproduction) -> Result<Option<Block>, ReproductionErro
     Ok(Some(Block::Table(table)))
 }
 
-/// What is seen in runs, with a column for each variant.
-fn features(
+/// What is seen in runs, with a column for each variant; none where nothing was looked for.
+pub(super) fn feature_table(
     figure: &FigureScenario,
     reproduction: &Reproduction,
-) -> Result<Option<Block>, ReproductionError> {
+) -> Result<Option<Table>, ReproductionError> {
     let seen = &reproduction.features;
     if seen.is_empty() {
         return Ok(None);
@@ -186,7 +197,8 @@ fn features(
         row.push(Cell::from(bounds(feature)));
         row.extend(variants.iter().map(of_variant));
         if several {
-            row.extend([Cell::from(one.mean()), Cell::from(one.deviation())]);
+            let spread = one.deviation();
+            row.extend([Cell::from(one.mean()), if spread.is_nan() { Cell::from("") } else { Cell::from(spread) }]);
         }
         let verdict = match (one.is_seen(), &feature.known_to_miss) {
             (true, _) => "seen".to_owned(),
@@ -196,7 +208,7 @@ fn features(
         row.extend([Cell::from(verdict), Cell::from(feature.why.as_str())]);
         table.push(row)?;
     }
-    Ok(Some(Block::Table(table)))
+    Ok(Some(table))
 }
 
 /// A value; a mark stands behind one that is not as it has to be.

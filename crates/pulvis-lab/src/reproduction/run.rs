@@ -1,5 +1,6 @@
 //! Many figures, on all processors.
 
+use super::report::{feature_file, feature_table};
 use super::{Reproduction, ReproductionError, Workplace, reproduce};
 use pulvis_input::figure::{Experiment, FigureScenario};
 use std::num::NonZero;
@@ -77,6 +78,9 @@ fn attempt(figure: &FigureScenario, workplace: &Workplace<'_>, dpi: u32) -> Atte
         reproduction.picture.clone().dpi(dpi).write(&file("png"))?;
         reproduction.picture.write(&file("svg"))?;
         reproduction.table.write(&file("csv"))?;
+        if let Some(features) = feature_table(figure, &reproduction)? {
+            features.write(&workplace.folder.join(feature_file(figure)))?;
+        }
         Ok(reproduction)
     });
     Attempt { figure: figure.clone(), outcome, duration: start.elapsed().as_secs_f64() }

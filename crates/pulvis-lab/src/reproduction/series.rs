@@ -9,6 +9,8 @@ use std::path::Path;
 pub(super) struct FinishedRun<'f> {
     /// Number of the variant.
     pub variant: usize,
+    /// What the variant is called.
+    pub variant_name: String,
     pub scenario: &'f Scenario,
     columns: Vec<String>,
     rows: Vec<Vec<f64>>,
@@ -16,7 +18,11 @@ pub(super) struct FinishedRun<'f> {
 
 impl<'f> FinishedRun<'f> {
     /// Reads what a run has written into its folder.
-    pub fn read(variant: usize, scenario: &'f Scenario, folder: &Path) -> Result<Self, ReproductionError> {
+    pub fn read(
+        (variant, variant_name): (usize, String),
+        scenario: &'f Scenario,
+        folder: &Path,
+    ) -> Result<Self, ReproductionError> {
         let file = folder.join("timeseries.csv");
         let unreadable = |reason: String| ReproductionError::TimeSeries { file: file.clone(), reason };
         let text = std::fs::read_to_string(&file).map_err(|error| unreadable(error.to_string()))?;
@@ -30,7 +36,7 @@ impl<'f> FinishedRun<'f> {
                 .ok_or_else(|| unreadable(format!("line {number} does not hold {} numbers", columns.len())))
         };
         let rows = lines.zip(2..).map(row).collect::<Result<_, _>>()?;
-        Ok(Self { variant, scenario, columns, rows })
+        Ok(Self { variant, variant_name, scenario, columns, rows })
     }
 
     /// The index of a column.
