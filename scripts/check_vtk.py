@@ -50,7 +50,7 @@ def read_blocks(path):
         name = blocks.GetMetaData(number).Get(blocks.NAME())
         require(blocks.GetBlock(number) is not None, f"block {name} of {path} is empty: its file cannot be read")
         named[name] = blocks.GetBlock(number)
-    require(set(named) == {"Particles", "Contacts"}, f"{path} has the blocks {sorted(named)}")
+    require(set(named) == {"Particles", "Contacts", "Walls"}, f"{path} has the blocks {sorted(named)}")
     return named
 
 

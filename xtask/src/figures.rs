@@ -32,8 +32,9 @@ pub fn run_all() -> Outcome {
     let scenario = root().join("experiments/tablet/short.toml");
     run(pulvis().arg("run").arg(scenario).arg("--output").arg(&folder).arg("--force"))?;
     copy(&folder.join("force_displacement.png"), &figures.join("tablet_short_force.png"))?;
-    copy(&folder.join("energies.png"), &figures.join("tablet_short_energies.png"))?;
-    copy(&folder.join("particles.png"), &figures.join("tablet_short_particles.png"))?;
+    let contacts = root().join("docs/book/src/figures/tablet-contacts.png");
+    let frame = ["--frame", "1", "--contacts", "--size", "520x400", "--force", "--output"];
+    run(pulvis().arg("render").arg(&folder).args(frame).arg(contacts))?;
     println!("look at the pictures before you commit them: git diff --stat docs experiments");
     Ok(())
 }

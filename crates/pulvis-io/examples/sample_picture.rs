@@ -1,7 +1,7 @@
 //! Renders a block of 20 000 spheres, to be looked at: `cargo run --release -p pulvis-io --example sample_picture -- <folder>`.
 #![allow(clippy::print_stderr, clippy::disallowed_methods)]
 
-use pulvis_io::picture::{OutlineBox, SphereScene, View, render_spheres};
+use pulvis_io::picture::{OutlineBox, Scene, View, render};
 use pulvis_io::{ColourMap, IoError};
 use std::path::Path;
 use std::time::Instant;
@@ -38,18 +38,19 @@ fn draw(folder: &Path) -> Result<(), IoError> {
             radii.push(1.0e-3 * (0.75 + 0.4 * random()));
         }
     }
-    let scene = SphereScene {
+    let scene = Scene {
         title: "Heap",
         bar_label: "speed [m/s]",
-        boxes: &[OutlineBox { low: [0.0; 3], high: [0.064, 0.05, 0.055] }],
+        edges: &OutlineBox { low: [0.0; 3], high: [0.064, 0.05, 0.055] }.edges(),
         scale_bar: true,
-        ..SphereScene::new(&centres, &radii, &values)
+        ..Scene::new(&centres, &radii, &values)
     };
     let start = Instant::now();
-    render_spheres(&folder.join("heap.png"), &scene)?;
+    let heap = render(&scene, 2)?;
     eprintln!("{} spheres: {:.0} ms", centres.len(), 1.0e3 * start.elapsed().as_secs_f64());
+    heap.write(&folder.join("heap.png"))?;
     let signed: Vec<f64> = centres.iter().map(|centre| 1.0e-5 * (centre[0] * 150.0).sin()).collect();
-    let few = SphereScene {
+    let few = Scene {
         values: &signed[..800],
         centres: &centres[..800],
         radii: &radii[..800],
@@ -62,20 +63,20 @@ fn draw(folder: &Path) -> Result<(), IoError> {
         height: 500,
         ..scene
     };
-    render_spheres(&folder.join("layer.png"), &few)?;
+    render(&few, 2)?.write(&folder.join("layer.png"))?;
     let (mut flown, classes) = (centres.clone(), [0.0, 1.0].repeat(centres.len() / 2 + 1));
     flown.iter_mut().step_by(40).for_each(|centre| *centre = centre.map(|x| 1.0e6 * x));
     flown.iter_mut().step_by(300).for_each(|centre| *centre = [f64::NAN; 3]);
-    let exploded = SphereScene {
+    let exploded = Scene {
         centres: &flown,
         values: &classes[..centres.len()],
         classes: &["glass", "steel"],
         title: "Exploded",
         ..scene
     };
-    render_spheres(&folder.join("exploded.png"), &exploded)?;
+    render(&exploded, 2)?.write(&folder.join("exploded.png"))?;
     let far: Vec<[f64; 3]> = centres.iter().map(|centre| centre.map(|x| 1.0e6 * x)).collect();
-    render_spheres(&folder.join("far.png"), &SphereScene { centres: &far, boxes: &[], ..scene })?;
-    let one = SphereScene { centres: &[[0.0; 3]], radii: &[1.0e-3], values: &[0.0], boxes: &[], ..scene };
-    render_spheres(&folder.join("one.png"), &one)
+    render(&Scene { centres: &far, edges: &[], ..scene }, 2)?.write(&folder.join("far.png"))?;
+    let one = Scene { centres: &[[0.0; 3]], radii: &[1.0e-3], values: &[0.0], edges: &[], ..scene };
+    render(&one, 2)?.write(&folder.join("one.png"))
 }

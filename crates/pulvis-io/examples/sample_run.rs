@@ -4,7 +4,7 @@
 #![allow(clippy::print_stderr)]
 
 use pulvis_io::IoError;
-use pulvis_io::vtk::{Column, ContactFrame, ParticleFrame, SeriesWriter};
+use pulvis_io::vtk::{Column, ContactFrame, ParticleFrame, SeriesWriter, WallFrame};
 
 fn main() -> std::process::ExitCode {
     let Some(folder) = std::env::args_os().nth(1) else {
@@ -51,7 +51,8 @@ fn write(folder: std::path::PathBuf) -> Result<(), IoError> {
                 Column::scalar("overlap", &overlap),
             ],
         };
-        series.write(time, &particles, &contacts)?;
+        let walls = WallFrame { ends: &[[[0.0; 3], [1.0, 0.0, 0.0]]], radii: &[0.5] };
+        series.write(time, &particles, &contacts, &walls)?;
     }
     Ok(())
 }

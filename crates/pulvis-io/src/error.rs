@@ -17,12 +17,12 @@ pub enum IoError {
         /// The system's reason.
         source: io::Error,
     },
-    /// A column does not have one value per row (particle, contact, sphere).
+    /// A column does not have one value per row (particle, contact, wall, sphere).
     #[error("column `{column}` has {found} values for {expected} {rows}; give one value for each")]
     ColumnLength {
         /// Name of the column.
         column: String,
-        /// What a row is: "particles", "contacts", "spheres".
+        /// What a row is: "particles", "contacts", "walls", "spheres".
         rows: &'static str,
         /// Number of rows.
         expected: usize,
@@ -60,6 +60,14 @@ pub enum IoError {
         path: PathBuf,
         /// Line number, from 1.
         line: usize,
+    },
+    /// A file of a frame cannot be understood.
+    #[error("{} is not a file that Pulvis wrote: {problem}; expected a VTK file of a run as the run wrote it", path.display())]
+    Frame {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
     },
     /// A file of an interrupted run is no longer what it was.
     #[error("{} has changed since the checkpoint: {problem}; resume from a copy of the run as it was, or run it again", path.display())]

@@ -8,6 +8,7 @@ mod machine;
 mod picture_file;
 mod probe;
 mod progress;
+mod render;
 mod reproduce;
 mod run;
 mod set;
@@ -27,6 +28,8 @@ pub enum Command {
     Check(check::Arguments),
     /// Runs the stages of a scenario
     Run(run::Arguments),
+    /// Draws the particles of a run, with or without their contacts, as pictures or as a film
+    Render(render::Arguments),
     /// Says what checkpoints of runs hold, and whether they are whole
     Info(info::Arguments),
     /// Collides two bodies, over a sweep of velocities, angles, spins or law parameters
@@ -47,6 +50,7 @@ impl Command {
         match self {
             Self::Check(arguments) => check::execute(arguments),
             Self::Run(arguments) => run::execute(arguments),
+            Self::Render(arguments) => render::execute(arguments),
             Self::Info(arguments) => info::execute(arguments),
             Self::Collide(arguments) => collide::execute(arguments),
             Self::Probe(arguments) => probe::execute(arguments),

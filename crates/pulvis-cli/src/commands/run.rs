@@ -8,8 +8,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use pulvis_core::InstructionSet;
-use pulvis_lab::protocol::{Progress, RunOptions, RunSummary, load_scenario, resume, run};
+use pulvis_lab::protocol::{PictureOptions, Progress, RunOptions, RunSummary, load_scenario, resume, run};
 
+use super::picture_file::Resolution;
 use super::progress::ProgressLine;
 use super::set::Settings;
 use super::words::duration;
@@ -38,6 +39,11 @@ pub struct Arguments {
     /// Instruction set (sse2, avx2, avx512); results do not depend on it [default: the widest of the processor]
     #[arg(long, value_name = "SET", value_parser = instruction_set)]
     instructions: Option<InstructionSet>,
+    #[command(flatten)]
+    resolution: Resolution,
+    /// Write plots as SVG beside PNG
+    #[arg(long)]
+    svg: bool,
     /// No progress line
     #[arg(short, long)]
     quiet: bool,
@@ -72,6 +78,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         threads: arguments.threads.map(usize::from),
         instructions: arguments.instructions,
         version: env!("CARGO_PKG_VERSION").to_owned(),
+        pictures: PictureOptions { dpi: arguments.resolution.dpi, svg: arguments.svg },
         warn,
     };
     let mut line = ProgressLine::new(arguments.quiet);

@@ -1,10 +1,11 @@
-//! `pulvis run`, `pulvis check` and `pulvis reproduce` from outside: files, messages, exit codes, Ctrl-C.
+//! `pulvis run`, `pulvis check`, `pulvis render` and `pulvis reproduce` from outside: files, messages, exit codes, Ctrl-C.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
 
 mod check;
 mod folder;
 mod place;
+mod render;
 mod reproduce;
 mod resume;
 mod run;

@@ -30,6 +30,28 @@ fn the_folder_is_that_of_the_scenario_and_quiet_runs_say_nothing_on_their_way() 
 }
 
 #[test]
+fn pictures_have_the_asked_resolution_and_plots_are_drawings_too() {
+    let place = Place::new("resolution", &[]);
+    let arguments = ["run", "s.toml", "--output", "out", "--quiet", "--dpi", "72", "--svg"];
+    let output = place.pulvis(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", error(&output));
+    assert!(out(&output).contains("energies.png, energies.svg, stress.png, stress.svg, particles.png"));
+    assert!(place.read("out/energies.svg").starts_with("<svg"));
+    let file = fs::File::open(place.0.join("out/particles.png")).unwrap();
+    let reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+    let (info, per_metre) = (reader.info(), (72.0_f64 / 0.0254).round() as u32);
+    assert_eq!((info.width, info.height), (600, 450));
+    assert_eq!(info.pixel_dims.unwrap().xppu, per_metre);
+    // All of them are files of the run, and go with it.
+    let again = place.pulvis(&["run", "s.toml", "--output", "out", "--quiet", "--force"]);
+    assert_eq!(again.status.code(), Some(0), "{}", error(&again));
+    assert!(!place.0.join("out/energies.svg").exists() && place.0.join("out/energies.png").exists());
+    let refused = place.pulvis(&["run", "s.toml", "--output", "other", "--dpi", "10"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(error(&refused).contains("10 is not in 36..=600"), "{}", error(&refused));
+}
+
+#[test]
 fn a_run_that_cannot_be_right_ends_with_exit_code_1_and_never_says_done() {
     let pressed = "until = { time = \"20 ms\" }\nwalls.z-high = { control = \"servo\", pressure = \"1e5 Pa\", mass = \"1 g\", damping = \"0 kg/s\" }";
     let place = Place::new("alarm", &[("until = { time = \"1 ms\" }", pressed)]);

@@ -1,7 +1,7 @@
 //! What the colours mean: a bar for a quantity, a list for classes.
 
-use super::SphereScene;
-use super::furniture::{INK, setting};
+use super::furniture::setting;
+use super::scene::Scene;
 use crate::plot::axis::Scale;
 use crate::plot::canvas::{Across, Along, Canvas, text_width};
 use crate::plot::{Axis, unit};
@@ -9,7 +9,7 @@ use crate::{Colour, IoError};
 use plotters::prelude::BitMapBackend;
 
 /// Width that the strip needs \[pixel\].
-pub(super) fn width(scene: &SphereScene<'_>, font: f64) -> f64 {
+pub(super) fn width(scene: &Scene<'_>, font: f64) -> f64 {
     let widest = scene.classes.iter().map(|name| text_width(name, font)).fold(0.0, f64::max);
     if !scene.classes.is_empty() {
         widest + 3.6 * font
@@ -23,7 +23,7 @@ pub(super) fn width(scene: &SphereScene<'_>, font: f64) -> f64 {
 /// Draws bar or list into a strip of this height \[pixel\].
 pub(super) fn draw(
     canvas: &Canvas<BitMapBackend<'_>>,
-    scene: &SphereScene<'_>,
+    scene: &Scene<'_>,
     range: [f64; 2],
     font: f64,
     height: f64,
@@ -37,7 +37,7 @@ pub(super) fn draw(
 
 fn draw_classes(
     canvas: &Canvas<BitMapBackend<'_>>,
-    scene: &SphereScene<'_>,
+    scene: &Scene<'_>,
     font: f64,
     height: f64,
 ) -> Result<(), IoError> {
@@ -46,7 +46,7 @@ fn draw_classes(
     for (number, name) in scene.classes.iter().enumerate() {
         let y = top + row * (number as f64 + 0.5);
         canvas.disc((1.2 * font, y), 0.55 * font, Colour::palette(number))?;
-        canvas.text((2.2 * font, y), name, setting(font, Along::Start, Across::Middle, false))?;
+        canvas.text((2.2 * font, y), name, setting(scene, font, Along::Start, Across::Middle, false))?;
     }
     Ok(())
 }
@@ -54,7 +54,7 @@ fn draw_classes(
 /// The bar in the middle half of the strip's height, with ticks and label.
 fn draw_bar(
     canvas: &Canvas<BitMapBackend<'_>>,
-    scene: &SphereScene<'_>,
+    scene: &Scene<'_>,
     range: [f64; 2],
     font: f64,
     height: f64,
@@ -68,21 +68,21 @@ fn draw_bar(
         canvas.fill(&[(left, low), (right, low), (right, high), (left, high)], colour, 1.0)?;
     }
     let frame = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top), (right, top)];
-    canvas.line(&frame, INK, 1.2)?;
+    canvas.line(&frame, scene.paper.ink(), 1.2)?;
     // Whole numbers, counts for example, have no ticks between them.
-    let whole = scene.values.iter().chain(&range).all(|value| value.fract() == 0.0 || !value.is_finite());
+    let whole = scene.all_values().chain(range).all(|value| value.fract() == 0.0 || !value.is_finite());
     let room = if whole { (range[1] - range[0]).min(6.0) } else { 6.0 };
     let axis = Axis { range: Some(range), label: scene.bar_label.to_owned(), ..Axis::default() };
     let (ticks, exponent) = Scale::new(&axis, std::iter::empty()).ticks(room);
     let mut widest = 0.0_f64;
     for tick in &ticks {
         let y = bottom + (top - bottom) * tick.place;
-        canvas.line(&[(right, y), (right + 0.35 * font, y)], INK, 1.2)?;
+        canvas.line(&[(right, y), (right + 0.35 * font, y)], scene.paper.ink(), 1.2)?;
         let place = (right + 0.6 * font, y);
-        canvas.text(place, &tick.label, setting(font, Along::Start, Across::Middle, false))?;
+        canvas.text(place, &tick.label, setting(scene, font, Along::Start, Across::Middle, false))?;
         widest = widest.max(text_width(&tick.label, font));
     }
     let label = unit::label(scene.bar_label, exponent);
     let x = right + 0.6 * font + widest + 0.5 * font;
-    canvas.text((x, 0.5 * (top + bottom)), &label, setting(font, Along::Middle, Across::Top, true))
+    canvas.text((x, 0.5 * (top + bottom)), &label, setting(scene, font, Along::Middle, Across::Top, true))
 }

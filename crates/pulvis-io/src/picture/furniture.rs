@@ -1,18 +1,19 @@
 //! What surrounds the spheres: title, colour bar, scale bar and notes.
 
+use super::bar;
 use super::camera::Camera;
+use super::scene::Scene;
 use super::selection::Selection;
-use super::{SphereScene, bar};
 use crate::plot::canvas::{Across, Along, Canvas, Setting, Stroke};
 use crate::plot::{raster, unit};
 use crate::{Colour, IoError};
 use plotters::prelude::{BitMapBackend, IntoDrawingArea};
 
-pub(super) const INK: Colour = Colour::grey(0x22);
-const NOTE_INK: Colour = Colour::new(0xA0, 0x10, 0x10);
-
 /// Drawn pixels per pixel of the picture, for smooth edges.
 const OVERSAMPLING: u32 = 3;
+
+/// Height of a line of text, in heights of the font.
+const LINE: f64 = 1.6;
 
 /// Lengths that depend on the size of the picture \[pixel\].
 struct Layout {
@@ -22,23 +23,24 @@ struct Layout {
     strip: [f64; 2],
     /// Height of the strip that holds the title.
     title: f64,
-    /// Height of the strip that holds notes and scale bar.
+    /// Height of the strip that holds caption, notes and scale bar.
     foot: f64,
 }
 
-fn layout(scene: &SphereScene<'_>, notes: usize) -> Layout {
+fn layout(scene: &Scene<'_>, notes: usize) -> Layout {
     let (width, height) = (f64::from(scene.width), f64::from(scene.height));
     let font = (0.024 * width.min(height)).max(9.0);
     let margin = 0.03 * width.min(height);
     let strip = bar::width(scene, font).min(0.4 * width).round();
     let title = if scene.title.is_empty() { 0.0 } else { (2.4 * font).round() };
     let scale_bar = if scene.scale_bar { 2.6 * font } else { 0.0 };
-    let foot = (scale_bar + 1.6 * font * notes as f64).min(0.4 * height).round();
+    let lines = notes + usize::from(!scene.caption.is_empty());
+    let foot = (scale_bar + LINE * font * lines as f64).min(0.4 * height).round();
     Layout { font, margin, strip: [width - strip, strip], title, foot }
 }
 
 /// Left, top, width and height of the part of the picture left for the spheres \[pixel\].
-pub(super) fn free_area(scene: &SphereScene<'_>, selection: &Selection) -> [f64; 4] {
+pub(super) fn free_area(scene: &Scene<'_>, selection: &Selection) -> [f64; 4] {
     let Layout { margin, strip: [right, _], title, foot, .. } = layout(scene, selection.notes(scene).len());
     let height = f64::from(scene.height) - title - foot;
     [margin, title + margin, (right - 2.0 * margin).max(1.0), (height - 2.0 * margin).max(1.0)]
@@ -47,7 +49,7 @@ pub(super) fn free_area(scene: &SphereScene<'_>, selection: &Selection) -> [f64;
 /// Draws everything over the margins of the picture.
 pub(super) fn draw(
     pixels: &mut [u8],
-    scene: &SphereScene<'_>,
+    scene: &Scene<'_>,
     selection: &Selection,
     camera: &Camera,
     range: [f64; 2],
@@ -56,26 +58,28 @@ pub(super) fn draw(
     let Layout { font, margin, title, foot, strip: [left, strip] } = layout(scene, notes.len());
     let middle = 0.5 * left;
     if title > 0.0 {
-        let setting = setting(1.25 * font, Along::Middle, Across::Middle, false);
+        let setting = setting(scene, 1.25 * font, Along::Middle, Across::Middle, false);
         overlay(pixels, scene, [0, 0, scene.width, title as u32], |canvas| {
             canvas.text((0.5 * f64::from(scene.width), 0.62 * title), scene.title, setting)
         })?;
     }
-    let anything = selection.count() > 0 || !scene.edges().is_empty();
-    if strip > 0.0 && selection.count() > 0 {
+    let anything = selection.count() > 0 || !scene.tubes.is_empty() || !scene.all_edges().is_empty();
+    if strip > 0.0 && (selection.count() > 0 || !scene.tubes.is_empty()) {
         let height = f64::from(scene.height) - title;
         let area = [scene.width - strip as u32, title as u32, strip as u32, height as u32];
         overlay(pixels, scene, area, |canvas| bar::draw(canvas, scene, range, font, height))?;
     }
     if foot > 0.0 {
         overlay(pixels, scene, [0, scene.height - foot as u32, left as u32, foot as u32], |canvas| {
-            for (row, note) in notes.iter().enumerate() {
-                let setting =
-                    Setting { colour: NOTE_INK, ..setting(font, Along::Middle, Across::Middle, false) };
-                canvas.text((middle, 1.6 * font * (row as f64 + 0.5)), note, setting)?;
+            let own = setting(scene, font, Along::Middle, Across::Middle, false);
+            let caption = (!scene.caption.is_empty()).then_some((scene.caption, own.colour));
+            let notes = notes.iter().map(|note| (note.as_str(), scene.paper.note_ink()));
+            for (row, (text, colour)) in caption.into_iter().chain(notes).enumerate() {
+                let place = (middle, LINE * font * (row as f64 + 0.5));
+                canvas.text(place, text, Setting { colour, ..own })?;
             }
             if scene.scale_bar && anything {
-                draw_scale_bar(canvas, camera, font, [margin, left, foot])
+                draw_scale_bar(canvas, scene, camera, font, [margin, left, foot])
             } else {
                 Ok(())
             }
@@ -84,16 +88,18 @@ pub(super) fn draw(
     if !anything {
         let [x, y, width, height] = free_area(scene, selection).map(|length| length as u32);
         overlay(pixels, scene, [x, y, width, height], |canvas| {
-            let setting = setting(1.25 * font, Along::Middle, Across::Middle, false);
+            let setting = setting(scene, 1.25 * font, Along::Middle, Across::Middle, false);
             canvas.text((0.5 * f64::from(width), 0.5 * f64::from(height)), "no particle to show", setting)
         })?;
     }
     Ok(())
 }
 
-/// A bar of a round length, at most a quarter of the picture, at the left of the foot.
+/// A bar of a round length, at most a quarter of the picture, at the left of the foot: as long as that length is in the
+/// middle of the scene.
 fn draw_scale_bar(
     canvas: &Canvas<BitMapBackend<'_>>,
+    scene: &Scene<'_>,
     camera: &Camera,
     font: f64,
     [margin, width, foot]: [f64; 3],
@@ -107,22 +113,23 @@ fn draw_scale_bar(
     for line in [[(left, y), (right, y)], [left; 2].map(|x| (x, y)), [right; 2].map(|x| (x, y))] {
         let [from, to] = line;
         let tick = if from == to { 0.3 * font } else { 0.0 };
-        canvas.line(&[(from.0, from.1 - tick), (to.0, to.1 + tick)], INK, 0.12 * font)?;
+        canvas.line(&[(from.0, from.1 - tick), (to.0, to.1 + tick)], scene.paper.ink(), 0.12 * font)?;
     }
     let label = unit::amount("length [m]", length);
     let above = (0.5 * (left + right), y - 0.4 * font);
-    canvas.text(above, &label, setting(font, Along::Middle, Across::Bottom, false))
+    canvas.text(above, &label, setting(scene, font, Along::Middle, Across::Bottom, false))
 }
 
-/// Draws into a white rectangle (left, top, width, height) of the picture, smoothed.
+/// Draws into an empty rectangle (left, top, width, height) of the picture, smoothed.
 fn overlay(
     pixels: &mut [u8],
-    scene: &SphereScene<'_>,
+    scene: &Scene<'_>,
     [left, top, width, height]: [u32; 4],
     draw: impl FnOnce(&Canvas<BitMapBackend<'_>>) -> Result<(), IoError>,
 ) -> Result<(), IoError> {
     let (wide, high) = (width * OVERSAMPLING, height * OVERSAMPLING);
-    let mut large = vec![255_u8; 3 * wide as usize * high as usize];
+    let Colour { red, green, blue } = scene.paper.ground();
+    let mut large = [red, green, blue].repeat(wide as usize * high as usize);
     {
         let area = BitMapBackend::with_buffer(&mut large, (wide, high)).into_drawing_area();
         draw(&Canvas::new(area, f64::from(OVERSAMPLING), Stroke::Filled))?;
@@ -137,6 +144,6 @@ fn overlay(
     Ok(())
 }
 
-pub(super) fn setting(size: f64, along: Along, across: Across, upwards: bool) -> Setting {
-    Setting { size, colour: INK, along, across, upwards }
+pub(super) fn setting(scene: &Scene<'_>, size: f64, along: Along, across: Across, upwards: bool) -> Setting {
+    Setting { size, colour: scene.paper.ink(), along, across, upwards }
 }

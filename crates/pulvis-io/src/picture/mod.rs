@@ -1,25 +1,29 @@
-//! Pictures of packings: spheres coloured by a quantity, as PNG, drawn in software on any machine.
+//! Pictures of packings: spheres and tubes coloured by a quantity, as PNG, drawn in software on any machine.
 //!
-//! The view is orthographic, so that sizes can be compared everywhere in the picture. Light comes from above the viewer's
-//! left shoulder; crevices are darkened and what lies far away fades a little, which is what makes a packing readable.
+//! Light comes from above the viewer's left shoulder; crevices are darkened and what lies far away fades a little, which is
+//! what makes a packing readable. In perspective the scale bar holds in the middle of the scene; with parallel lines of sight
+//! it holds everywhere.
 //!
-//! The view holds the boxes and cylinders and the spheres near them, without these the bulk of the spheres; how many lie outside or have
-//! no finite position stands in a note on the picture.
+//! The view holds the boxes and cylinders and the spheres near them, without these the bulk of the spheres; how many lie
+//! outside or have no finite position stands in a note on the picture.
+//!
+//! The same scene gives the same pixels for any number of threads.
 //!
 //! ```
-//! use pulvis_io::picture::{OutlineBox, SphereScene, View, render_spheres};
+//! use pulvis_io::picture::{OutlineBox, Scene, View, render};
 //!
 //! # fn main() -> Result<(), pulvis_io::IoError> {
 //! # let scratch = tempfile::tempdir().expect("a temporary folder");
 //! # let folder = scratch.path();
-//! let scene = SphereScene {
+//! let scene = Scene {
 //!     title: "two spheres",
 //!     bar_label: "speed [m/s]",
-//!     boxes: &[OutlineBox { low: [-0.002, -0.001, -0.001], high: [0.002, 0.001, 0.001] }],
+//!     edges: &OutlineBox { low: [-0.002, -0.001, -0.001], high: [0.002, 0.001, 0.001] }.edges(),
 //!     view: View::OBLIQUE,
-//!     ..SphereScene::new(&[[-0.001, 0.0, 0.0], [0.001, 0.0, 0.0]], &[0.001, 0.0008], &[0.1, 0.3])
+//!     ..Scene::new(&[[-0.001, 0.0, 0.0], [0.001, 0.0, 0.0]], &[0.001, 0.0008], &[0.1, 0.3])
 //! };
-//! render_spheres(&folder.join("spheres.png"), &scene)?;
+//! let threads = 2;
+//! render(&scene, threads)?.write(&folder.join("spheres.png"))?;
 //! # Ok(())
 //! # }
 //! ```
@@ -27,274 +31,147 @@
 mod bar;
 mod camera;
 mod depth;
+mod film;
 mod furniture;
 mod outline;
+mod scene;
 mod selection;
 mod shade;
+mod shapes;
+mod vector;
+mod view;
 
 use crate::plot::raster;
-use crate::{Colour, ColourMap, IoError, file};
+use crate::{IoError, file};
 use camera::Camera;
 use depth::DepthBuffer;
+use pulvis_parallel::thread_pool::ThreadPool;
 use selection::Selection;
+use shapes::Shape;
 use std::path::Path;
+use vector::Vector;
 
-pub use outline::{OutlineBox, OutlineCylinder};
+pub use film::Film;
+pub use outline::{Edge, OutlineBox, OutlineCylinder};
+pub use scene::{Paint, Paper, Scene, Tube};
+pub use view::{Projection, View};
 
-/// Where one looks from. Neither vector needs unit length.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
-    /// Direction of looking, from the eye into the scene.
-    pub direction: [f64; 3],
-    /// What is up in the picture; only its part across `direction` counts.
-    pub up: [f64; 3],
+/// Half the width of an outline in the middle of the scene \[pixel\].
+const OUTLINE: f64 = 0.7;
+
+/// Outlines are cut into pieces of this share of the scene's depth: a long one would keep most tiles busy in vain.
+const PIECE: f64 = 1.0 / 32.0;
+
+/// A drawn picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    width: u32,
+    height: u32,
+    /// Red, green and blue of the pixels, row by row.
+    pixels: Vec<u8>,
+    /// Pixels to the inch on paper.
+    dpi: u32,
 }
 
-impl View {
-    /// Along +y, z up: a front view.
-    pub const FRONT: Self = Self { direction: [0.0, 1.0, 0.0], up: [0.0, 0.0, 1.0] };
-
-    /// Along -z, y up: a plan view.
-    pub const TOP: Self = Self { direction: [0.0, 0.0, -1.0], up: [0.0, 1.0, 0.0] };
-
-    /// From the front, the right and above, z up.
-    pub const OBLIQUE: Self = Self { direction: [-0.5, 1.0, -0.45], up: [0.0, 0.0, 1.0] };
-}
-
-/// What to draw.
-#[derive(Clone, Copy, Debug)]
-pub struct SphereScene<'a> {
-    /// Centre of each sphere \[m\]; spheres with a coordinate or radius that is not finite are left out and counted in a
-    /// note.
-    pub centres: &'a [[f64; 3]],
-    /// Radius of each sphere \[m\].
-    pub radii: &'a [f64],
-    /// The quantity that gives each sphere its colour; not-a-number is grey. With `classes`, the number of its class.
-    pub values: &'a [f64],
-    /// Names of classes, of materials for example, each with a colour of its own in place of the colour bar; empty for a
-    /// quantity.
-    pub classes: &'a [&'a str],
-    /// Ends of the colour bar; `None` takes the smallest and largest finite value.
-    pub range: Option<[f64; 2]>,
-    /// Colours of the range.
-    pub colours: ColourMap,
-    /// Where one looks from.
-    pub view: View,
-    /// Size of the picture \[pixel\].
-    pub width: u32,
-    /// Size of the picture \[pixel\].
-    pub height: u32,
-    /// Heading; empty for none.
-    pub title: &'a str,
-    /// Quantity and unit beside the colour bar; empty for a picture without a colour bar.
-    pub bar_label: &'a str,
-    /// Boxes shown by their edges.
-    pub boxes: &'a [OutlineBox],
-    /// Cylinders shown by their outlines.
-    pub cylinders: &'a [OutlineCylinder],
-    /// Whether a bar shows a length in metres.
-    pub scale_bar: bool,
-}
-
-impl<'a> SphereScene<'a> {
-    /// Smallest and largest side of a picture \[pixel\].
-    const SIDES: [u32; 2] = [64, 8192];
-
-    /// Spheres seen obliquely, in viridis, 1200 x 900 pixels, without title, colour bar, outlines and scale bar.
-    pub fn new(centres: &'a [[f64; 3]], radii: &'a [f64], values: &'a [f64]) -> Self {
-        Self {
-            centres,
-            radii,
-            values,
-            classes: &[],
-            range: None,
-            colours: ColourMap::Viridis,
-            view: View::OBLIQUE,
-            width: 1200,
-            height: 900,
-            title: "",
-            bar_label: "",
-            boxes: &[],
-            cylinders: &[],
-            scale_bar: false,
-        }
+impl Picture {
+    /// Width and height \[pixel\].
+    pub fn size(&self) -> [u32; 2] {
+        [self.width, self.height]
     }
 
-    fn check(&self) -> Result<(), IoError> {
-        let expected = self.centres.len();
-        for (column, found) in [("radii", self.radii.len()), ("values", self.values.len())] {
-            if found != expected {
-                return Err(IoError::ColumnLength {
-                    column: column.to_owned(),
-                    rows: "spheres",
-                    expected,
-                    found,
-                });
-            }
-        }
-        let (width, height, [least, most]) = (self.width, self.height, Self::SIDES);
-        if [width, height].into_iter().any(|side| !(least..=most).contains(&side)) {
-            return Err(IoError::PictureSize { width, height, least, most });
-        }
-        Ok(())
+    /// Red, green and blue of all pixels, row by row from the top.
+    pub fn pixels(&self) -> &[u8] {
+        &self.pixels
     }
 
-    /// The edges of all outlines.
-    fn edges(&self) -> Vec<[[f64; 3]; 2]> {
-        let boxes = self.boxes.iter().flat_map(OutlineBox::edges);
-        boxes.chain(self.cylinders.iter().flat_map(|cylinder| cylinder.edges(self.view))).collect()
+    /// Sets the number of pixels to the inch on paper, 144 unless told otherwise; the pixels stay as they are.
+    #[must_use]
+    pub fn dpi(self, dpi: u32) -> Self {
+        Self { dpi, ..self }
     }
 
-    /// Ends of the colour bar.
-    fn value_range(&self) -> [f64; 2] {
-        let usable = |range: &[f64; 2]| range.iter().all(|end| end.is_finite()) && range[0] < range[1];
-        self.range.filter(usable).unwrap_or_else(|| {
-            let finite = self.values.iter().filter(|value| value.is_finite());
-            let ends = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| {
-                [low.min(value), high.max(value)]
-            });
-            // A single value is shown against zero; no value at all needs some range for the bar.
-            let only = Some(ends[0]).filter(|value| value.is_finite() && *value != 0.0);
-            let from_zero = only.map_or([0.0, 1.0], |value| [value.min(0.0), value.max(0.0)]);
-            if usable(&ends) { ends } else { from_zero }
-        })
-    }
-
-    /// Colour of a sphere with this value.
-    fn colour(&self, value: f64, range: [f64; 2]) -> Colour {
-        if self.classes.is_empty() || !value.is_finite() {
-            return self.colours.at((value - range[0]) / (range[1] - range[0]));
+    /// Writes the picture into a PNG file.
+    ///
+    /// # Errors
+    /// An ending other than `png`, or a file that cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), IoError> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        if !ending.eq_ignore_ascii_case("png") {
+            let (what, given, known) = ("picture", ending.into_owned(), "png".to_owned());
+            return Err(IoError::UnknownFormat { what, given, known });
         }
-        Colour::palette(value.max(0.0) as usize)
+        file::replace(path, |out| raster::encode(out, &self.pixels, self.size(), self.dpi))
     }
 }
 
-/// Renders the scene into a PNG file.
+/// Draws a scene with this number of threads, on which no pixel depends.
 ///
 /// # Errors
-/// Columns of unequal length, a size that cannot be drawn, an ending other than `png`, or a file that cannot be written.
-pub fn render_spheres(path: &Path, scene: &SphereScene<'_>) -> Result<(), IoError> {
+/// Columns of unequal length, or a size that cannot be drawn.
+pub fn render(scene: &Scene<'_>, threads: usize) -> Result<Picture, IoError> {
     scene.check()?;
-    let ending = path.extension().unwrap_or_default().to_string_lossy();
-    if !ending.eq_ignore_ascii_case("png") {
-        let (what, given, known) = ("picture", ending.into_owned(), "png".to_owned());
-        return Err(IoError::UnknownFormat { what, given, known });
-    }
+    // Where the system starts no further threads, this one draws the same picture.
+    let threads = ThreadPool::of(threads).unwrap_or_default();
     let range = scene.value_range();
     let mut selection = Selection::of(scene);
     let camera = Camera::fit(scene, &selection);
-    let enlarged = camera::shown(scene, &selection).any(|(_, _, radius)| camera.enlarges(radius));
+    let enlarged =
+        camera::shown(scene, &selection).any(|(_, centre, radius)| camera.enlarges(centre, radius));
     selection.enlarged = enlarged;
     // The note on it takes room of its own.
     let camera = Camera::fit(scene, &selection);
-    let mut depth = DepthBuffer::new(scene.width, scene.height);
-    depth.draw_spheres(scene, &selection, &camera);
-    depth.draw_edges(&scene.edges(), &camera);
-    let mut pixels = shade::shade(&depth, scene, &selection, &camera, range);
+    let Collected { shapes, colours, solid, typical } = collect(scene, &selection, &camera, range);
+    let depth = DepthBuffer::draw(&shapes, &camera, [scene.width, scene.height], &threads);
+    let shaded = shade::Shaded { shapes: &shapes, colours: &colours, solid, typical, paper: scene.paper };
+    let mut pixels = shade::shade(&depth, &shaded, &camera, &threads);
     furniture::draw(&mut pixels, scene, &selection, &camera, range)?;
-    file::replace(path, |out| raster::encode(out, &pixels, [scene.width, scene.height], raster::DPI))
+    Ok(Picture { width: scene.width, height: scene.height, pixels, dpi: raster::DPI })
+}
+
+/// What can be seen: first what is solid, then lines.
+struct Collected {
+    shapes: Vec<Shape>,
+    colours: Vec<crate::Colour>,
+    solid: usize,
+    /// Mean radius of the spheres in the picture \[pixel\].
+    typical: f64,
+}
+
+fn collect(scene: &Scene<'_>, selection: &Selection, camera: &Camera, range: [f64; 2]) -> Collected {
+    let (mut shapes, mut colours) = (Vec::new(), Vec::new());
+    let palette = scene.sphere_colours(range);
+    let mut radii = 0.0;
+    for (number, centre, radius) in camera::shown(scene, selection) {
+        let centre = camera.to_camera(Vector(centre));
+        let radius = camera.visible_radius(radius, centre.0[2]);
+        radii += radius * camera.scale_at(centre.0[2]);
+        shapes.push(Shape::Ball { centre, radius });
+        colours.push(palette[number]);
+    }
+    let typical = radii / shapes.len().max(1) as f64;
+    let is_finite = |end: &[f64; 3]| end.iter().all(|x| x.abs() < outline::LARGEST);
+    for tube in scene.tubes.iter().filter(|tube| tube.radius > 0.0 && tube.ends.iter().all(is_finite)) {
+        let [from, to] = tube.ends.map(|end| camera.to_camera(Vector(end)));
+        let radius = camera.visible_radius(tube.radius, from.0[2]);
+        shapes.push(Shape::Tube { from, axis: to.minus(from), radius });
+        colours.push(scene.tube_colour(tube, range));
+    }
+    let solid = shapes.len();
+    let sides = scene.cylinders.iter().flat_map(|cylinder| cylinder.sides(camera));
+    let longest = PIECE * (camera.depths[1] - camera.depths[0]).max(f64::MIN_POSITIVE);
+    for edge in scene.all_edges().into_iter().chain(sides) {
+        let [from, to] = edge.map(|end| camera.to_camera(Vector(end)));
+        let axis = to.minus(from);
+        let pieces = (axis.norm() / longest).ceil().clamp(1.0, 1000.0);
+        let axis = axis.times(1.0 / pieces);
+        for piece in 0..pieces as usize {
+            let from = from.plus(axis.times(piece as f64));
+            shapes.push(Shape::Tube { from, axis, radius: OUTLINE / camera.scale });
+        }
+    }
+    colours.resize(shapes.len(), scene.paper.outline());
+    Collected { shapes, colours, solid, typical }
 }
 
 #[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-    use super::*;
-    use crate::plot::raster::Decoded;
-
-    /// Colour of a pixel of the rendered scene.
-    fn pixels(scene: &SphereScene<'_>) -> impl Fn(u32, u32) -> [u8; 3] + use<> {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("picture.png");
-        render_spheres(&path, scene).unwrap();
-        let image = Decoded::open(&path).unwrap();
-        move |x, y| image.pixel(x, y)
-    }
-
-    #[test]
-    fn the_nearer_sphere_hides_the_farther() {
-        let centres = [[0.0, 0.0, 0.0], [0.0, -3.0, 0.0]];
-        let (radii, values) = ([1.0, 0.5], [0.0, 1.0]);
-        let scene = SphereScene {
-            view: View::FRONT,
-            width: 200,
-            height: 200,
-            ..SphereScene::new(&centres, &radii, &values)
-        };
-        let at = pixels(&scene);
-        let centre = at(100, 100);
-        assert!(centre[0] > centre[2], "the small yellow sphere is in front: {centre:?}");
-        let beside = at(40, 100);
-        assert!(beside[2] > beside[1], "the large violet sphere shows beside it: {beside:?}");
-        assert_eq!(at(2, 2), [255; 3], "the background is white");
-        let behind = SphereScene { view: View { direction: [0.0, -1.0, 0.0], ..View::FRONT }, ..scene };
-        let centre = pixels(&behind)(100, 100);
-        assert!(centre[2] > centre[1], "seen from behind it is hidden: {centre:?}");
-    }
-
-    #[test]
-    fn strange_scenes_are_drawn_without_panic() {
-        let nan = f64::NAN;
-        let centres = [[nan, 0.0, 0.0], [0.0; 3], [1.0, 0.0, f64::INFINITY], [1.0e200, 0.0, 0.0]];
-        let radii = [1.0, 1.0, 1.0, -1.0];
-        let values = [0.0, nan, f64::INFINITY, 1.0];
-        let upright = View { direction: [0.0, 0.0, 1.0], up: [0.0, 0.0, 5.0] };
-        let nowhere = View { direction: [0.0; 3], up: [nan; 3] };
-        for view in [View::OBLIQUE, upright, nowhere] {
-            let boxes = [OutlineBox { low: [nan; 3], high: [1.0; 3] }];
-            let small = SphereScene {
-                width: 64,
-                height: 64,
-                bar_label: "v",
-                title: "t",
-                view,
-                boxes: &boxes,
-                ..SphereScene::new(&centres, &radii, &values)
-            };
-            let _ = pixels(&small);
-            let _ = pixels(&SphereScene { centres: &[], radii: &[], values: &[], ..small });
-            let _ = pixels(&SphereScene { classes: &["a", "b"], scale_bar: true, width: 300, ..small });
-        }
-    }
-
-    /// Pixels in the colour of notes.
-    fn note_pixels(scene: &SphereScene<'_>) -> usize {
-        let at = pixels(scene);
-        let all = (0..scene.height).flat_map(|y| (0..scene.width).map(move |x| (x, y)));
-        all.filter(|&(x, y)| at(x, y)[0] > at(x, y)[1].saturating_add(90)).count()
-    }
-
-    #[test]
-    fn an_exploded_packing_is_drawn_with_a_note_and_not_as_a_blank_sheet() {
-        let flown = |n: u32| [1.0e6 * f64::from(n % 7), 1.0e5 * f64::from(n), 0.0];
-        let centres: Vec<[f64; 3]> = (0..60).map(flown).collect();
-        let (radii, values) = (vec![1.0; 60], vec![0.0; 60]);
-        let scene = SphereScene { width: 300, height: 300, ..SphereScene::new(&centres, &radii, &values) };
-        let at = pixels(&scene);
-        let inked =
-            (0..200).flat_map(|y| (0..300).map(move |x| (x, y))).filter(|&(x, y)| at(x, y) != [255; 3]);
-        assert!(inked.count() > 60, "dots where the particles are");
-        assert!(note_pixels(&scene) > 50, "and a note that they are enlarged");
-        let nowhere = vec![[f64::NAN; 3]; 60];
-        assert!(note_pixels(&SphereScene { centres: &nowhere, ..scene }) > 50);
-        let sound: Vec<[f64; 3]> = (0..60).map(|n| [2.0 * f64::from(n), 0.0, 0.0]).collect();
-        assert_eq!(note_pixels(&SphereScene { centres: &sound, ..scene }), 0);
-    }
-
-    #[test]
-    fn one_value_is_shown_against_zero() {
-        for (value, expected) in [(0.0, [0.0, 1.0]), (3.0, [0.0, 3.0]), (-2.0, [-2.0, 0.0])] {
-            assert_eq!(SphereScene::new(&[[0.0; 3]], &[1.0], &[value]).value_range(), expected);
-        }
-        assert_eq!(SphereScene::new(&[], &[], &[]).value_range(), [0.0, 1.0]);
-    }
-
-    #[test]
-    fn unequal_columns_and_other_endings_are_refused() {
-        let scene = SphereScene::new(&[[0.0; 3]], &[], &[0.0]);
-        assert!(matches!(render_spheres(Path::new("a.png"), &scene), Err(IoError::ColumnLength { .. })));
-        let scene = SphereScene::new(&[], &[], &[]);
-        assert!(matches!(render_spheres(Path::new("a.gif"), &scene), Err(IoError::UnknownFormat { .. })));
-        let scene = SphereScene { width: 0, ..scene };
-        assert!(matches!(render_spheres(Path::new("a.png"), &scene), Err(IoError::PictureSize { .. })));
-    }
-}
+mod tests;

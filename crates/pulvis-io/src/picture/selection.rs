@@ -1,6 +1,7 @@
 //! Which spheres a picture shows, and what it says of the others.
 
-use super::{SphereScene, outline};
+use super::outline;
+use super::scene::Scene;
 
 /// Without a box, spheres farther from the middle than this many times the distance within which most lie are outside.
 const FAR: f64 = 5.0;
@@ -25,15 +26,17 @@ pub(super) struct Selection {
 }
 
 impl Selection {
-    /// The view holds the boxes and the spheres near them; without boxes, the bulk of the spheres.
-    pub(super) fn of(scene: &SphereScene<'_>) -> Self {
+    /// The view holds the limits of the scene, else the outlines and the spheres near them; without these, the bulk of the
+    /// spheres.
+    pub(super) fn of(scene: &Scene<'_>) -> Self {
         let drawable: Vec<bool> = scene
             .centres
             .iter()
             .zip(scene.radii)
             .map(|(&centre, &radius)| can_be_drawn(centre, radius))
             .collect();
-        let limits = outline_limits(scene).or_else(|| bulk_limits(scene, &drawable));
+        let around = || outline_limits(scene).or_else(|| bulk_limits(scene, &drawable));
+        let limits = scene.limits.or_else(around);
         let inside = |centre: &[f64; 3]| {
             limits
                 .is_none_or(|[low, high]| (0..3).all(|axis| (low[axis]..=high[axis]).contains(&centre[axis])))
@@ -55,7 +58,7 @@ impl Selection {
     }
 
     /// Notes on what the picture does not show, one a line.
-    pub(super) fn notes(&self, scene: &SphereScene<'_>) -> Vec<String> {
+    pub(super) fn notes(&self, scene: &Scene<'_>) -> Vec<String> {
         let all = self.shown.len();
         let colourless =
             scene.values.iter().zip(&self.shown).filter(|(value, shown)| **shown && !value.is_finite());
@@ -77,15 +80,15 @@ fn can_be_drawn(centre: [f64; 3], radius: f64) -> bool {
 }
 
 /// Limits around all outlines.
-fn outline_limits(scene: &SphereScene<'_>) -> Option<[[f64; 3]; 2]> {
-    let [low, high] = outline::limits(&scene.edges())?;
+fn outline_limits(scene: &Scene<'_>) -> Option<[[f64; 3]; 2]> {
+    let [low, high] = outline::limits(&scene.all_edges())?;
     let longest = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
     let margin = AROUND_BOX * longest;
     Some([low.map(|x| x - margin), high.map(|x| x + margin)])
 }
 
 /// Limits around the bulk of the spheres.
-fn bulk_limits(scene: &SphereScene<'_>, drawable: &[bool]) -> Option<[[f64; 3]; 2]> {
+fn bulk_limits(scene: &Scene<'_>, drawable: &[bool]) -> Option<[[f64; 3]; 2]> {
     let chosen = || (0..drawable.len()).filter(|&number| drawable[number]);
     let radius = quantile(chosen().map(|number| scene.radii[number]), 0.5)?;
     let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
@@ -122,7 +125,7 @@ mod tests {
         centres[50][2] = f64::NAN;
         centres[51][0] = f64::INFINITY;
         let (radii, values) = (vec![0.5; 100], vec![0.0; 100]);
-        let scene = SphereScene::new(&centres, &radii, &values);
+        let scene = Scene::new(&centres, &radii, &values);
         let selection = Selection::of(&scene);
         assert_eq!(selection.count(), 97);
         let expected = [
@@ -137,8 +140,8 @@ mod tests {
         let centres: Vec<[f64; 3]> =
             grid(100).iter().map(|centre| centre.map(|x| 1.0e6 * (x + 1.0))).collect();
         let (radii, values) = (vec![0.5; 100], vec![0.0; 100]);
-        let boxes = [OutlineBox { low: [0.0; 3], high: [4.0; 3] }];
-        let scene = SphereScene { boxes: &boxes, ..SphereScene::new(&centres, &radii, &values) };
+        let edges = OutlineBox { low: [0.0; 3], high: [4.0; 3] }.edges();
+        let scene = Scene { edges: &edges, ..Scene::new(&centres, &radii, &values) };
         let selection = Selection::of(&scene);
         assert_eq!(selection.count(), 0);
         assert_eq!(selection.notes(&scene), ["100 of 100 particles lie outside the view"]);
@@ -148,7 +151,7 @@ mod tests {
     fn a_sound_packing_has_no_notes() {
         let centres = grid(100);
         let (radii, values) = (vec![0.5; 100], vec![0.0; 100]);
-        let scene = SphereScene::new(&centres, &radii, &values);
+        let scene = Scene::new(&centres, &radii, &values);
         let selection = Selection::of(&scene);
         assert_eq!((selection.count(), selection.notes(&scene).len()), (100, 0));
     }

@@ -1,13 +1,15 @@
 //! Light, crevices and distance.
 
-use super::SphereScene;
-use super::camera::{Camera, shown};
-use super::depth::{DepthBuffer, EDGE, NOTHING, SAMPLES};
-use super::selection::Selection;
+use super::camera::Camera;
+use super::depth::{DepthBuffer, NOTHING, SAMPLES};
+use super::scene::Paper;
+use super::shapes::Shape;
+use super::vector::Vector;
 use crate::Colour;
+use pulvis_parallel::thread_pool::ThreadPool;
 
-/// Direction to the lamp: left, above and before the picture (x right, y down, z towards the eye), unit length.
-const LAMP: [f64; 3] = [-0.408, -0.557, 0.723];
+/// Direction to the lamp: left, above and before the picture (x right, y down, z away from the eye), unit length.
+const LAMP: Vector = Vector([-0.408, -0.557, -0.723]);
 
 /// Shares of light that come from everywhere and from the lamp.
 const AMBIENT: f64 = 0.52;
@@ -22,42 +24,52 @@ const OCCLUSION: f64 = 0.62;
 const FADING: f64 = 0.16;
 
 /// Places around a pixel that are asked whether they stand before it: golden-angle spiral, evenly dense in a disc.
-const PROBES: usize = 20;
+const PROBES: usize = 24;
+
+/// How much the share of probes that stand above the surface counts, and how fast it falls with the distance.
+const STRENGTH: f64 = 2.2;
+const FALL: f64 = 1.0;
+
+/// Rows of pixels that one thread shades in one go.
+const ROWS: usize = 16;
+
+/// What is shaded: the shapes, each with a colour, and how many of them, the first ones, have light and shadow; the others are
+/// lines.
+pub(super) struct Shaded<'a> {
+    pub(super) shapes: &'a [Shape],
+    pub(super) colours: &'a [Colour],
+    pub(super) solid: usize,
+    /// Radius of a typical sphere in the picture \[pixel\].
+    pub(super) typical: f64,
+    pub(super) paper: Paper,
+}
 
 /// Colours of all pixels (red, green, blue).
 pub(super) fn shade(
     depth: &DepthBuffer,
-    scene: &SphereScene<'_>,
-    selection: &Selection,
+    shaded: &Shaded<'_>,
     camera: &Camera,
-    range: [f64; 2],
+    threads: &ThreadPool,
 ) -> Vec<u8> {
-    let palette: Vec<Colour> = scene.values.iter().map(|&value| scene.colour(value, range)).collect();
-    let light = Light { depth, scene, camera, palette, probes: probes(scene, selection, camera) };
+    let light = Light { depth, shaded, camera, probes: probes(shaded.typical) };
     let (width, height) = (depth.width / SAMPLES, depth.height / SAMPLES);
-    let mut pixels = Vec::with_capacity(3 * width * height);
-    for row in 0..height {
-        for column in 0..width {
-            let mut sum = [0.0; 3];
-            let open = light.openness(column, row);
-            for sample in 0..SAMPLES * SAMPLES {
-                let x = column * SAMPLES + sample % SAMPLES;
-                let y = row * SAMPLES + sample / SAMPLES;
-                let colour = light.sample(x, y, open);
-                sum.iter_mut().zip(colour).for_each(|(sum, part)| *sum += part);
+    let mut pixels = vec![0; 3 * width * height];
+    let mut bands: Vec<&mut [u8]> = pixels.chunks_mut(3 * width * ROWS).collect();
+    threads.for_each(&mut bands, |band, rows| {
+        for (number, pixel) in rows.chunks_exact_mut(3).enumerate() {
+            let colour = light.pixel(number % width, band * ROWS + number / width);
+            for (part, value) in pixel.iter_mut().zip(colour) {
+                *part = value.round().clamp(0.0, 255.0) as u8;
             }
-            let count = (SAMPLES * SAMPLES) as f64;
-            pixels.extend(sum.map(|part| (part / count).round().clamp(0.0, 255.0) as u8));
         }
-    }
+    });
     pixels
 }
 
 struct Light<'a> {
     depth: &'a DepthBuffer,
-    scene: &'a SphereScene<'a>,
+    shaded: &'a Shaded<'a>,
     camera: &'a Camera,
-    palette: Vec<Colour>,
     probes: Probes,
 }
 
@@ -65,75 +77,109 @@ struct Probes {
     /// Distances right and down [sample].
     offsets: [(isize, isize); PROBES],
     /// Radius of the probed disc \[pixel\].
-    reach: f32,
+    reach: f64,
 }
 
 /// Probes reach about as far as a typical sphere, since that is the size of the crevices.
-fn probes(scene: &SphereScene<'_>, selection: &Selection, camera: &Camera) -> Probes {
-    let radii: Vec<f64> = shown(scene, selection).map(|(_, _, radius)| camera.radius(radius)).collect();
-    let mean = radii.iter().sum::<f64>() / radii.len().max(1) as f64;
-    let reach = (1.2 * mean).clamp(2.0, 60.0);
+fn probes(typical: f64) -> Probes {
+    let reach = (1.2 * typical).clamp(2.0, 60.0);
     let offsets = std::array::from_fn(|number| {
         let radius = reach * SAMPLES as f64 * ((number as f64 + 0.5) / PROBES as f64).sqrt();
         let angle = 2.399_963_229_728_653 * number as f64;
         ((radius * angle.cos()).round() as isize, (radius * angle.sin()).round() as isize)
     });
-    Probes { offsets, reach: reach as f32 }
+    Probes { offsets, reach }
 }
 
 impl Light<'_> {
-    /// Share of the sky that a pixel sees, from the depths around it: 1 in the open, 0 in a closed crevice.
-    fn openness(&self, column: usize, row: usize) -> f64 {
-        let (x, y) = (column * SAMPLES + SAMPLES / 2, row * SAMPLES + SAMPLES / 2);
-        let here = self.depth.depth[y * self.depth.width + x];
-        if here.is_infinite() {
+    /// Colour of a pixel, parts from 0 to 255.
+    fn pixel(&self, column: usize, row: usize) -> [f64; 3] {
+        let places: [[usize; 2]; SAMPLES * SAMPLES] = std::array::from_fn(|sample| {
+            [column * SAMPLES + sample % SAMPLES, row * SAMPLES + sample / SAMPLES]
+        });
+        let owners = places.map(|[x, y]| self.depth.owner[y * self.depth.width + x]);
+        if owners == [NOTHING; SAMPLES * SAMPLES] {
+            return parts(self.shaded.paper.ground());
+        }
+        // The sky of one sample, of the last that shows a surface, is that of the pixel.
+        let solid = places.iter().zip(owners).rev().find(|(_, owner)| (*owner as usize) < self.shaded.solid);
+        let open = solid.map_or(1.0, |(&place, owner)| self.openness(place, owner));
+        let mut sum = [0.0; 3];
+        for ([x, y], owner) in places.into_iter().zip(owners) {
+            let colour = self.sample([x, y], owner, open);
+            sum.iter_mut().zip(colour).for_each(|(sum, part)| *sum += part);
+        }
+        sum.map(|part| part / (SAMPLES * SAMPLES) as f64)
+    }
+
+    /// Share of the sky that a pixel sees, from the surfaces around it: 1 in the open, 0 in a closed crevice.
+    fn openness(&self, [x, y]: [usize; 2], owner: u32) -> f64 {
+        if owner as usize >= self.shaded.solid {
             return 1.0;
         }
+        let here = self.point([x, y]);
+        let normal = self.shaded.shapes[owner as usize].normal(here);
+        let reach = self.probes.reach / self.camera.scale_at(here.0[2]);
         let mut hidden = 0.0;
         for (dx, dy) in self.probes.offsets {
             let (Some(x), Some(y)) = (x.checked_add_signed(dx), y.checked_add_signed(dy)) else { continue };
-            if x >= self.depth.width || y >= self.depth.height {
+            if x >= self.depth.width
+                || y >= self.depth.height
+                || self.depth.owner[y * self.depth.width + x] as usize >= self.shaded.solid
+            {
                 continue;
             }
-            // A sphere just before the pixel hides it fully; one far before it is another layer and hides less.
-            let before = (here - self.depth.depth[y * self.depth.width + x]) / self.probes.reach;
-            if before > 0.0 {
-                hidden += (before / 0.9).min(1.0) / (1.0 + (before - 2.5).max(0.0) * 0.4);
+            // What stands above the surface hides the sky, the less the farther it is; the surface itself, which bends away,
+            // does not.
+            let away = self.point([x, y]).minus(here);
+            let above = normal.dot(away);
+            if above > 0.0 {
+                let square = away.dot(away);
+                hidden += above / square.sqrt() / (1.0 + FALL * square / (reach * reach));
             }
         }
-        f64::from(1.0 - hidden / PROBES as f32)
+        (1.0 - STRENGTH * hidden / PROBES as f64).max(0.0)
+    }
+
+    /// The place of a sample in coordinates of the camera.
+    fn point(&self, [x, y]: [usize; 2]) -> Vector {
+        let at = |sample: usize| (sample as f64 + 0.5) / SAMPLES as f64;
+        self.camera.ray(at(x), at(y)).at(f64::from(self.depth.depth[y * self.depth.width + x]))
     }
 
     /// Colour of a sample, parts from 0 to 255.
-    fn sample(&self, x: usize, y: usize, open: f64) -> [f64; 3] {
-        let place = y * self.depth.width + x;
-        let owner = self.depth.owner[place];
+    fn sample(&self, [x, y]: [usize; 2], owner: u32, open: f64) -> [f64; 3] {
+        let ground = parts(self.shaded.paper.ground());
         if owner == NOTHING {
-            return [255.0; 3];
-        }
-        let depth = f64::from(self.depth.depth[place]);
-        let [near, far] = self.camera.depths;
-        let distance = ((depth - near) / (far - near).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        if owner == EDGE {
-            return [70.0 + 70.0 * distance; 3];
+            return ground;
         }
         let number = owner as usize;
-        let centre = self.camera.project(self.scene.centres[number]);
-        let radius = self.camera.radius(self.scene.radii[number]);
-        let samples = SAMPLES as f64;
-        let nx = ((x as f64 + 0.5) / samples - centre.x) / radius;
-        let ny = ((y as f64 + 0.5) / samples - centre.y) / radius;
-        let nz = (1.0 - nx * nx - ny * ny).max(0.0).sqrt();
-        let towards = (nx * LAMP[0] + ny * LAMP[1] + nz * LAMP[2]).max(0.0);
-        // The mirrored lamp's part towards the eye (z).
-        let mirrored = (2.0 * towards * nz - LAMP[2]).max(0.0);
+        let depth = f64::from(self.depth.depth[y * self.depth.width + x]);
+        let [near, far] = self.camera.depths;
+        let distance = ((depth - near) / (far - near).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let colour = parts(self.shaded.colours[number]);
+        if number >= self.shaded.solid {
+            return mix(colour, ground, 0.4 * distance);
+        }
+        let at = |sample: usize| (sample as f64 + 0.5) / SAMPLES as f64;
+        let ray = self.camera.ray(at(x), at(y));
+        let normal = self.shaded.shapes[number].normal(ray.at(depth));
+        let towards = normal.dot(LAMP);
+        let lit = towards.max(0.0);
+        // The mirrored lamp's part towards the eye.
+        let to_eye = ray.direction.times(-1.0 / ray.direction.norm());
+        let mirrored = (2.0 * lit * normal.dot(to_eye) - LAMP.dot(to_eye)).max(0.0);
         let crevice = 1.0 - OCCLUSION * (1.0 - open);
-        let strength = (AMBIENT + LAMBERT * towards) * crevice;
+        let strength = (AMBIENT + LAMBERT * lit) * crevice;
         let shine = 255.0 * HIGHLIGHT * mirrored.powi(SHARPNESS) * crevice;
-        let Colour { red, green, blue } = self.palette[number];
-        [red, green, blue].map(|part| {
-            let lit = (f64::from(part) * strength + shine).min(255.0);
-            lit + FADING * distance * (255.0 - lit)
-        })
+        mix(colour.map(|part| (part * strength + shine).min(255.0)), ground, FADING * distance)
     }
+}
+
+fn parts(Colour { red, green, blue }: Colour) -> [f64; 3] {
+    [red, green, blue].map(f64::from)
+}
+
+fn mix(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
+    std::array::from_fn(|part| from[part] + share * (to[part] - from[part]))
 }

@@ -85,6 +85,15 @@ pub struct ContactFrame<'a> {
     pub columns: &'a [Column<'a>],
 }
 
+/// The walls of one instant: edges, and axes of cylinders.
+#[derive(Clone, Copy, Debug)]
+pub struct WallFrame<'a> {
+    /// Ends of each line \[m\].
+    pub ends: &'a [[[f64; 3]; 2]],
+    /// Radius of each cylinder whose axis a line is, 0 for an edge \[m\].
+    pub radii: &'a [f64],
+}
+
 /// Writes particles as points: `path` should end in `.vtp`.
 ///
 /// # Errors
@@ -104,6 +113,17 @@ pub fn write_contacts(path: &Path, frame: &ContactFrame<'_>) -> Result<(), IoErr
     check(frame.columns, frame.ends.len(), "contacts")?;
     let coordinates = frame.ends.as_flattened().as_flattened();
     file::replace(path, |file| polydata::write(file, coordinates, Cells::Lines, frame.columns))
+}
+
+/// Writes walls as lines of two points each: `path` should end in `.vtp`.
+///
+/// # Errors
+/// Not one radius per line, or a file that cannot be written.
+pub fn write_walls(path: &Path, frame: &WallFrame<'_>) -> Result<(), IoError> {
+    let columns = [Column::scalar("radius", frame.radii)];
+    check(&columns, frame.ends.len(), "walls")?;
+    let coordinates = frame.ends.as_flattened().as_flattened();
+    file::replace(path, |file| polydata::write(file, coordinates, Cells::Lines, &columns))
 }
 
 /// Every column has one value per row and its own name.

@@ -5,13 +5,13 @@ use crate::{IoError, file};
 use std::io::Write;
 use std::path::Path;
 
-/// One instant in the run's index.
+/// One instant in the index of a run.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Entry {
+pub struct Entry {
     /// Time of the frame \[s\].
-    pub(crate) time: f64,
+    pub time: f64,
     /// File of the frame, relative to the index.
-    pub(crate) file: String,
+    pub file: String,
 }
 
 /// Writes the index of one frame: named blocks, each a file in the same folder.
@@ -44,8 +44,11 @@ pub(crate) fn write_series(path: &Path, entries: &[Entry]) -> Result<(), IoError
     })
 }
 
-/// Reads an index that [`write_series`] wrote: one entry per line, which is all this parser knows of XML.
-pub(crate) fn read_series(path: &Path) -> Result<Vec<Entry>, IoError> {
+/// The frames of a run, from the index that it wrote: one entry a line, which is all that this parser knows of XML.
+///
+/// # Errors
+/// The index cannot be read, or is not one that Pulvis wrote.
+pub fn read_series(path: &Path) -> Result<Vec<Entry>, IoError> {
     let text = std::fs::read_to_string(path).map_err(|source| IoError::system("read", path, source))?;
     let mut entries = Vec::new();
     for (number, line) in text.lines().enumerate().filter(|(_, line)| line.starts_with("<DataSet ")) {
@@ -58,12 +61,25 @@ pub(crate) fn read_series(path: &Path) -> Result<Vec<Entry>, IoError> {
     Ok(entries)
 }
 
-fn attribute<'a>(line: &'a str, name: &str) -> Option<&'a str> {
+/// Name and file of the blocks of a frame.
+pub(super) fn read_blocks(path: &Path) -> Result<Vec<(String, String)>, IoError> {
+    let text = std::fs::read_to_string(path).map_err(|source| IoError::system("read", path, source))?;
+    let mut blocks = Vec::new();
+    for (number, line) in text.lines().enumerate().filter(|(_, line)| line.starts_with("<DataSet ")) {
+        let block = attribute(line, "name").zip(attribute(line, "file"));
+        let (name, file) =
+            block.ok_or_else(|| IoError::Index { path: path.to_path_buf(), line: number + 1 })?;
+        blocks.push((unescape(name), unescape(file)));
+    }
+    Ok(blocks)
+}
+
+pub(super) fn attribute<'a>(line: &'a str, name: &str) -> Option<&'a str> {
     let start = line.find(&format!(" {name}=\""))? + name.len() + 3;
     let value = line.get(start..)?;
     value.get(..value.find('"')?)
 }
 
-fn unescape(text: &str) -> String {
+pub(super) fn unescape(text: &str) -> String {
     text.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&amp;", "&")
 }

@@ -4,9 +4,10 @@
 //!
 //! ```text
 //! series.pvd             the index: time and file of every frame; open this one
-//! frame_0000.vtm         one instant: the blocks Particles and Contacts
+//! frame_0000.vtm         one instant: the blocks Particles, Contacts and Walls
 //! particles_0000.vtp     points with one array per column
 //! contacts_0000.vtp      lines between the centres in contact, with one array per column
+//! walls_0000.vtp         edges of walls, and axes of cylinders with their radius
 //! ```
 //!
 //! The readers agree on one encoding only, which is therefore the one written here: inline base64 without compression,
@@ -21,7 +22,7 @@
 //! Known limit: in a frame without contacts OVITO 3.17 goes on showing the contacts of the first frame; ParaView shows none.
 //!
 //! ```
-//! use pulvis_io::vtk::{Column, ContactFrame, ParticleFrame, SeriesWriter};
+//! use pulvis_io::vtk::{Column, ContactFrame, ParticleFrame, SeriesWriter, WallFrame, read_frame, read_series};
 //!
 //! # fn main() -> Result<(), pulvis_io::IoError> {
 //! # let scratch = tempfile::tempdir().expect("a temporary folder");
@@ -40,8 +41,12 @@
 //!     ],
 //! };
 //! let mut series = SeriesWriter::create(folder, "")?;
-//! series.write(0.0, &particles, &contacts)?;
-//! assert!(folder.join("series.pvd").exists());
+//! let walls = WallFrame { ends: &[[[-0.001, 0.0, -0.001], [0.003, 0.0, -0.001]]], radii: &[0.0] };
+//! series.write(0.0, &particles, &contacts, &walls)?;
+//!
+//! let frames = read_series(&folder.join("series.pvd"))?;
+//! let frame = read_frame(&folder.join(&frames[0].file))?;
+//! assert_eq!(frame.particles.points, positions);
 //! # Ok(())
 //! # }
 //! ```
@@ -49,7 +54,12 @@
 mod frame;
 mod index;
 mod polydata;
+mod read;
 mod series;
 
-pub use frame::{Column, ContactFrame, ParticleFrame, Values, write_contacts, write_particles};
+pub use frame::{
+    Column, ContactFrame, ParticleFrame, Values, WallFrame, write_contacts, write_particles, write_walls,
+};
+pub use index::{Entry, read_series};
+pub use read::{Frame, Numbers, PolyData, read_frame, read_frame_without_contacts, read_polydata};
 pub use series::SeriesWriter;

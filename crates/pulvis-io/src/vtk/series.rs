@@ -1,13 +1,14 @@
 //! The frames of a run, numbered, with an index that is complete after every frame.
 
-use super::frame::{ContactFrame, ParticleFrame, write_contacts, write_particles};
+use super::frame::{ContactFrame, ParticleFrame, WallFrame, write_contacts, write_particles, write_walls};
 use super::index::{Entry, read_series, write_blocks, write_series};
+use super::read::Frame;
 use crate::{IoError, file};
 use std::path::{Path, PathBuf};
 
 /// Writes frame after frame into one folder and keeps the index `series.pvd` up to date.
 ///
-/// The order of writing is particles, contacts, frame, index; each file appears whole. An interrupted run therefore leaves
+/// The order of writing is particles, contacts, walls, frame, index; each file appears whole. An interrupted run therefore leaves
 /// an index whose every entry can be opened.
 #[derive(Debug)]
 pub struct SeriesWriter {
@@ -63,28 +64,43 @@ impl SeriesWriter {
         time: f64,
         particles: &ParticleFrame<'_>,
         contacts: &ContactFrame<'_>,
+        walls: &WallFrame<'_>,
     ) -> Result<PathBuf, IoError> {
         let previous = self.entries.last().map_or(f64::NEG_INFINITY, |entry| entry.time);
         if !time.is_finite() || time <= previous {
             return Err(IoError::FrameTime { time, previous });
         }
-        let [particle_file, contact_file, frame_file, _] = self.next_files();
+        let [particle_file, contact_file, wall_file, frame_file, _] = self.next_files();
         write_particles(&self.folder.join(&particle_file), particles)?;
         write_contacts(&self.folder.join(&contact_file), contacts)?;
+        write_walls(&self.folder.join(&wall_file), walls)?;
         let path = self.folder.join(&frame_file);
-        write_blocks(&path, &[("Particles", &particle_file), ("Contacts", &contact_file)])?;
+        let blocks = [("Particles", &*particle_file), ("Contacts", &contact_file), ("Walls", &wall_file)];
+        write_blocks(&path, &blocks)?;
         self.entries.push(Entry { time, file: frame_file });
         write_series(&self.index(), &self.entries)?;
         Ok(path)
     }
 
-    /// Names of the files that the next frame will write: particles, contacts, frame, index.
-    pub fn next_files(&self) -> [String; 4] {
+    /// Writes one frame that is in memory, as [`write`](Self::write) does.
+    ///
+    /// # Errors
+    /// As of [`write`](Self::write).
+    pub fn write_frame(&mut self, time: f64, frame: &Frame) -> Result<PathBuf, IoError> {
+        let Frame { particles, contacts, walls } = frame;
+        let particles = ParticleFrame { positions: &particles.points, columns: &particles.borrowed() };
+        let contacts = ContactFrame { ends: &contacts.lines(), columns: &contacts.borrowed() };
+        let radii = walls.scalar("radius").unwrap_or_default();
+        self.write(time, &particles, &contacts, &WallFrame { ends: &walls.lines(), radii: &radii })
+    }
+
+    /// Names of the files that the next frame will write: particles, contacts, walls, frame, index.
+    pub fn next_files(&self) -> [String; 5] {
         let name = |kind: &str, ending: &str| {
             format!("{}{kind}_{number:04}.{ending}", self.prefix, number = self.entries.len())
         };
         let index = format!("{}series.pvd", self.prefix);
-        [name("particles", "vtp"), name("contacts", "vtp"), name("frame", "vtm"), index]
+        [name("particles", "vtp"), name("contacts", "vtp"), name("walls", "vtp"), name("frame", "vtm"), index]
     }
 
     /// Number of frames in the index.
@@ -110,13 +126,14 @@ mod tests {
 
     const NO_PARTICLES: ParticleFrame<'static> = ParticleFrame { positions: &[], columns: &[] };
     const NO_CONTACTS: ContactFrame<'static> = ContactFrame { ends: &[], columns: &[] };
+    const NO_WALLS: WallFrame<'static> = WallFrame { ends: &[], radii: &[] };
 
     #[test]
     fn the_index_is_complete_after_every_frame() {
         let folder = tempfile::tempdir().unwrap();
         let mut series = SeriesWriter::create(folder.path().join("run"), "").unwrap();
         for (number, time) in [0.0, 0.1, 0.30000000000000004].into_iter().enumerate() {
-            let frame = series.write(time, &NO_PARTICLES, &NO_CONTACTS).unwrap();
+            let frame = series.write(time, &NO_PARTICLES, &NO_CONTACTS, &NO_WALLS).unwrap();
             let entries = read_series(&series.index()).unwrap();
             assert_eq!(entries.len(), number + 1);
             assert_eq!(entries[number].time.to_bits(), time.to_bits());
@@ -134,12 +151,12 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut series = SeriesWriter::create(folder.path(), "a&b").unwrap();
         for time in [0.0, 1.0, 2.0] {
-            series.write(time, &NO_PARTICLES, &NO_CONTACTS).unwrap();
+            series.write(time, &NO_PARTICLES, &NO_CONTACTS, &NO_WALLS).unwrap();
         }
         let mut series = SeriesWriter::resume(folder.path(), "a&b", 2).unwrap();
         assert_eq!(series.frames(), 2);
         assert_eq!(read_series(&series.index()).unwrap().len(), 2);
-        let frame = series.write(1.5, &NO_PARTICLES, &NO_CONTACTS).unwrap();
+        let frame = series.write(1.5, &NO_PARTICLES, &NO_CONTACTS, &NO_WALLS).unwrap();
         assert!(frame.ends_with("a&b_frame_0002.vtm"));
         let times: Vec<f64> = read_series(&series.index()).unwrap().iter().map(|entry| entry.time).collect();
         assert_eq!(times, [0.0, 1.0, 1.5]);
@@ -151,9 +168,9 @@ mod tests {
     fn a_time_that_goes_back_or_is_no_number_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let mut series = SeriesWriter::create(folder.path(), "").unwrap();
-        series.write(1.0, &NO_PARTICLES, &NO_CONTACTS).unwrap();
+        series.write(1.0, &NO_PARTICLES, &NO_CONTACTS, &NO_WALLS).unwrap();
         for time in [1.0, 0.5, f64::NAN, f64::INFINITY] {
-            let error = series.write(time, &NO_PARTICLES, &NO_CONTACTS);
+            let error = series.write(time, &NO_PARTICLES, &NO_CONTACTS, &NO_WALLS);
             assert!(matches!(error, Err(IoError::FrameTime { previous: 1.0, .. })));
         }
         assert_eq!(series.frames(), 1);

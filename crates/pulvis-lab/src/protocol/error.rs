@@ -8,6 +8,7 @@ use pulvis_io::IoError;
 use thiserror::Error;
 
 use super::checkpoint::FindError;
+use crate::rendering::RenderError;
 
 /// What is wrong with a scenario once its particles exist: bad input, found before anything is written.
 #[derive(Debug, Error)]
@@ -124,6 +125,9 @@ pub enum RunError {
     /// Output could not be written.
     #[error(transparent)]
     Output(#[from] IoError),
+    /// The particles could not be drawn.
+    #[error(transparent)]
+    Picture(#[from] Box<RenderError>),
     /// A file of the run cannot be made, or would replace one that is not its own.
     #[error("cannot make {}: {source}; move away what is there, or choose another folder with `--output DIR`", .file.display())]
     File {

@@ -5,7 +5,7 @@
 //! nothing else.
 
 use std::collections::HashSet;
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -15,19 +15,16 @@ use pulvis_io::name_of_temporary;
 
 use super::checkpoint::is_checkpoint;
 use super::error::{PrepareError, RunError};
+use super::lock::{LOCK, Lock, lock};
 
 /// The record of the files of a run.
 pub(super) const LIST: &str = "run.files";
 
 /// The resolved scenario.
-pub(super) const RECORD: &str = "run.toml";
+pub(crate) const RECORD: &str = "run.toml";
 
 /// The first line of [`LIST`].
 const HEADING: &str = "# The files of this Pulvis run; `pulvis run --force` removes them and nothing else.";
-
-/// The file that is locked. It stays behind, empty of meaning: to remove it would let two runs lock two
-/// files of the same name.
-const LOCK: &str = ".pulvis-lock";
 
 /// The folder of a run under way.
 #[derive(Debug)]
@@ -225,56 +222,18 @@ fn may_be_written(name: &str) -> bool {
         let (kind, rest) = name.split_once('_')?;
         let (number, ending) = rest.split_once('.')?;
         let digits = number.len() >= 4 && number.bytes().all(|byte| byte.is_ascii_digit());
-        Some(digits && ["particles", "contacts", "frame"].contains(&kind) && ["vtp", "vtm"].contains(&ending))
+        Some(
+            digits
+                && ["particles", "contacts", "walls", "frame"].contains(&kind)
+                && ["vtp", "vtm"].contains(&ending),
+        )
     };
-    let pictures = ["energies.png", "stress.png", "force_displacement.png", "particles.png"];
-    let tables = [RECORD, LIST, "timeseries.csv", "series.pvd"];
-    is_checkpoint(name) || pictures.contains(&name) || tables.contains(&name) || numbered() == Some(true)
-}
-
-/// What is asked of a lock where the file system knows none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Lock {
-    /// A fresh folder may be used all the same.
-    IfPossible,
-    /// The process that has locked it before must have ended, as far as this machine knows.
-    OrDeadProcess,
-    /// Files will be removed.
-    Needed,
-}
-
-/// Whether a process of this machine has the number; `false` where nobody can tell.
-fn is_alive(process: &str) -> bool {
-    let other = process.parse().is_ok_and(|number: u32| number != std::process::id());
-    other && Path::new("/proc").join(process).exists()
-}
-
-/// Locks a folder for this process. `None` on a file system without locks.
-fn lock(folder: &Path, wanted: Lock) -> Result<Option<File>, PrepareError> {
-    let failed = |source| PrepareError::Folder { folder: PathBuf::from(folder), source };
-    let path = folder.join(LOCK);
-    let mut file = OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
-    match file.try_lock() {
-        Ok(()) => {
-            // For the message of a run that comes while this one goes on.
-            file.set_len(0).and_then(|()| write!(file, "{}", std::process::id())).map_err(failed)?;
-            Ok(Some(file))
-        }
-        Err(TryLockError::WouldBlock) => {
-            let process = fs::read_to_string(&path).ok().filter(|text| !text.is_empty());
-            Err(PrepareError::RunGoesOn { folder: PathBuf::from(folder), process })
-        }
-        Err(TryLockError::Error(source)) if wanted == Lock::Needed => Err(failed(source)),
-        Err(TryLockError::Error(_)) => {
-            let process = fs::read_to_string(&path).ok().filter(|process| is_alive(process));
-            match process {
-                Some(process) if wanted == Lock::OrDeadProcess => {
-                    Err(PrepareError::RunGoesOn { folder: PathBuf::from(folder), process: Some(process) })
-                }
-                _ => Ok(None),
-            }
-        }
-    }
+    let is_picture = || match name.rsplit_once('.') {
+        Some((name, "png" | "svg")) => ["energies", "stress", "force_displacement"].contains(&name),
+        _ => false,
+    };
+    let others = [RECORD, LIST, "timeseries.csv", "series.pvd", "particles.png"];
+    is_checkpoint(name) || is_picture() || others.contains(&name) || numbered() == Some(true)
 }
 
 /// Whether the next folder above that exists lets one be made in it, as far as can be told without trying.

@@ -6,10 +6,13 @@ use pulvis_core::Simulation;
 use pulvis_input::scenario::{Scenario, WallControl};
 use pulvis_io::plot::{Chart, Figure, Series as Line};
 
+use crate::rendering::default_picture;
+
 use super::error::RunError;
 use super::folder::OutputFolder;
+use super::frame::frame_of;
 use super::measure::Measure;
-use super::packing_picture;
+use super::run::PictureOptions;
 use super::setup::box_walls;
 
 /// The rows of a time series.
@@ -57,24 +60,29 @@ pub(super) fn draw(
     scenario: &Scenario,
     simulation: &Simulation,
     series: &Series<'_>,
+    options: PictureOptions,
     output: &mut OutputFolder,
 ) -> Result<Vec<PathBuf>, RunError> {
+    let PictureOptions { dpi, svg } = options;
     let mut drawn = Vec::new();
-    let mut keep = |name: &str, figure: Figure| -> Result<(), RunError> {
-        let path = output.file(name)?;
-        figure.write(&path)?;
-        drawn.push(path);
-        Ok(())
-    };
-    keep("energies.png", energies(scenario, series))?;
-    if let Some(figure) = stresses(scenario, series) {
-        keep("stress.png", figure)?;
-    }
-    if let Some(figure) = force_displacement(scenario, series) {
-        keep("force_displacement.png", figure)?;
+    let figures = [
+        ("energies", Some(energies(scenario, series))),
+        ("stress", stresses(scenario, series)),
+        ("force_displacement", force_displacement(scenario, series)),
+    ];
+    for (name, figure) in figures {
+        let Some(figure) = figure else { continue };
+        let figure = figure.dpi(dpi);
+        for ending in ["png", "svg"].into_iter().filter(|ending| svg || *ending == "png") {
+            let path = output.file(&format!("{name}.{ending}"))?;
+            figure.write(&path)?;
+            drawn.push(path);
+        }
     }
     let path = output.file("particles.png")?;
-    packing_picture::draw(scenario, simulation, &path)?;
+    let frame = frame_of(scenario, simulation);
+    let picture = default_picture(scenario, &frame, simulation.time(), dpi).map_err(Box::new)?;
+    picture.write(&path)?;
     drawn.push(path);
     Ok(drawn)
 }

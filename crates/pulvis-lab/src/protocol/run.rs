@@ -29,8 +29,26 @@ pub struct RunOptions {
     pub instructions: Option<InstructionSet>,
     /// Version of the program, for the record.
     pub version: String,
+    /// How pictures are written.
+    pub pictures: PictureOptions,
     /// Told what is valid and yet probably not meant, before the first step.
     pub warn: fn(&str),
+}
+
+/// How the pictures of a run are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PictureOptions {
+    /// Pixels to the inch of a PNG.
+    pub dpi: u32,
+    /// Whether plots are written as SVG too.
+    pub svg: bool,
+}
+
+impl Default for PictureOptions {
+    /// PNG with 144 pixels to the inch.
+    fn default() -> Self {
+        Self { dpi: 144, svg: false }
+    }
 }
 
 /// How far a run has come.

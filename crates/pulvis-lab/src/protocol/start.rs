@@ -4,11 +4,13 @@ use pulvis_core::walls::Wall;
 use pulvis_core::{Interactions, Limits, Particle, Simulation, State};
 use pulvis_input::scenario::{Scenario, Stage, StartFrom, WallControl};
 use pulvis_input::{Document, Problem, Replacement};
+use pulvis_io::vtk::Frame;
 use std::path::Path;
 
-use super::checkpoint::{Ancestor, Checkpoint, Found, RunRecord, of_run};
+use super::checkpoint::{Ancestor, Checkpoint, FindError, Found, RunRecord, find, of_run};
 use super::error::PrepareError;
 use super::feasible::{check_feasible, start_stage};
+use super::frame::frame_of;
 use super::run::StageResult;
 use super::setup::{Origin, Prepared, StagePlan, drawn_walls, interactions, stages};
 use super::stage::Ending;
@@ -31,10 +33,8 @@ pub(super) fn resumed(scenario: &Scenario, found: Found) -> Result<Resumed, Prep
     if record.time_steps.len() != scenario.stages.len() || stage >= scenario.stages.len() {
         return Err(misfit("it has other stages".to_owned()));
     }
-    let mut walls = walls_after(scenario, &ancestors)?;
-    let plans = resumed_plans(scenario, &record.time_steps, walls.clone());
-    let ended = ancestors.last().is_none_or(|ancestor| ancestor.stage_ended);
-    enter_stages(&mut walls, &scenario.stages[..=stage], ended);
+    let plans = resumed_plans(scenario, &record.time_steps, walls_after(scenario, &ancestors)?);
+    let walls = walls_in_stage(scenario, &ancestors, &scenario.stages[..=stage])?;
     let state: State = checkpoint.into_state().map_err(|problem| misfit(problem.to_owned()))?;
     let results = record.results.iter().zip(&scenario.stages).map(|(result, stage)| {
         let ending = Ending::from_number(result.ending);
@@ -85,6 +85,32 @@ fn walls_after(scenario: &Scenario, ancestors: &[Ancestor]) -> Result<Vec<Wall>,
         ended = *stage_ended;
     }
     Ok(walls)
+}
+
+/// The walls of a scenario in the last of these stages of a run.
+fn walls_in_stage(
+    scenario: &Scenario,
+    ancestors: &[Ancestor],
+    stages: &[Stage],
+) -> Result<Vec<Wall>, PrepareError> {
+    let mut walls = walls_after(scenario, ancestors)?;
+    enter_stages(&mut walls, stages, ancestors.last().is_none_or(|ancestor| ancestor.stage_ended));
+    Ok(walls)
+}
+
+/// The state in a checkpoint file as a frame, with its scenario and time [s].
+pub(crate) fn frame_of_checkpoint(file: &Path) -> Result<(Scenario, f64, Frame), PrepareError> {
+    let found = find(file)?.ok_or_else(|| FindError::None(file.to_owned()))?;
+    let checkpoint = found.checkpoint;
+    let (scenario, stage) = parent(&checkpoint)?;
+    let walls = walls_in_stage(&scenario, &checkpoint.ancestors, &scenario.stages[..=stage])?;
+    let models = interactions(&scenario, &scenario.stages[stage].contacts);
+    let misfit = |problem: String| PrepareError::Misfit { file: file.to_owned(), problem };
+    let state: State = checkpoint.into_state().map_err(|problem| misfit(problem.to_owned()))?;
+    let simulation =
+        Simulation::import_state(models, walls, &state).map_err(|error| misfit(error.to_string()))?;
+    let frame = frame_of(&scenario, &simulation);
+    Ok((scenario, simulation.time(), frame))
 }
 
 /// Walls go through the starts of stages. Where the stage before the first one goes on, so do motions that have an end.
@@ -138,9 +164,7 @@ pub(super) fn branch(scenario: &Scenario, start: &StartFrom) -> Result<Prepared,
     same_system(scenario, &parent)?;
     let mut ancestors = checkpoint.ancestors.clone();
     let stage_ended = checkpoint.run.watch.is_none();
-    let mut walls = walls_after(scenario, &ancestors)?;
-    let ended = ancestors.last().is_none_or(|ancestor| ancestor.stage_ended);
-    enter_stages(&mut walls, &parent.stages[..=stage], ended);
+    let walls = walls_in_stage(scenario, &ancestors, &parent.stages[..=stage])?;
     ancestors.push(Ancestor { scenario: checkpoint.scenario.clone(), stage: stage as u32, stage_ended });
     let models: Interactions = interactions(&parent, &parent.stages[stage].contacts);
     let unfit = |problem: String| {

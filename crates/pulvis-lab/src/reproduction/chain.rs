@@ -3,7 +3,7 @@
 use super::ReproductionError;
 use super::series::FinishedRun;
 use super::workplace::{RunDone, Workplace};
-use crate::protocol::{RunOptions, RunSummary, column_names, has_ended, run};
+use crate::protocol::{PictureOptions, RunOptions, RunSummary, column_names, has_ended, run};
 use pulvis_input::figure::{Experiment, Family, FigureScenario, PlannedRun, Runs};
 use pulvis_input::scenario::{Scenario, StartFrom};
 use std::num::NonZero;
@@ -165,6 +165,7 @@ fn carry_out(
             threads: Some(1),
             instructions: None,
             version: workplace.version.to_owned(),
+            pictures: PictureOptions::default(),
             warn: |_| {},
         };
         let failed = |source| ReproductionError::Run { data: data.to_owned(), source: Box::new(source) };

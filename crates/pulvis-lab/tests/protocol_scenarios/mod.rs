@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use pulvis_input::scenario::Scenario;
-use pulvis_lab::protocol::{self, Progress, RunError, RunOptions, RunSummary};
+use pulvis_lab::protocol::{self, PictureOptions, Progress, RunError, RunOptions, RunSummary};
 
 /// The small tablet with some texts replaced; each of them must be there.
 pub fn tablet(changes: &[(&str, &str)]) -> Scenario {
@@ -35,6 +35,7 @@ pub fn options(folder: &Path) -> RunOptions {
         threads: Some(1),
         instructions: None,
         version: "test".to_owned(),
+        pictures: PictureOptions::default(),
         warn: |_| {},
     }
 }

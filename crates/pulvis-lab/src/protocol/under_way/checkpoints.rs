@@ -12,7 +12,7 @@ use crate::protocol::error::RunError;
 use crate::protocol::folder::{LIST, OutputFolder};
 use crate::protocol::measure::Measure;
 use crate::protocol::pace::Due;
-use crate::protocol::run::{StageResult, drop_later};
+use crate::protocol::run::{PictureOptions, StageResult, drop_later};
 use crate::protocol::snapshots::Snapshots;
 use crate::protocol::stage::StageWatch;
 use crate::protocol::start::{Resumed, resumed};
@@ -66,6 +66,7 @@ impl<'a> Run<'a> {
                 .and_then(|plan| plan.every)
                 .map(|every| Due::resume(every, record.checkpoints_due)),
             keeper,
+            pictures: PictureOptions::default(),
             output,
             simulation,
         })
@@ -122,6 +123,7 @@ impl<'a> Run<'a> {
             frames_due,
             checkpoints_due,
             keeper: _,
+            pictures: _,
         } = self;
         let series = writer.position()?;
         Ok(RunRecord {

@@ -18,7 +18,7 @@ use super::folder::OutputFolder;
 use super::measure::Measure;
 use super::pace::{Due, PACE, Pace};
 use super::report::{self, Series};
-use super::run::{Progress, RunOptions, RunSummary, StageResult, Watch, set_machine};
+use super::run::{PictureOptions, Progress, RunOptions, RunSummary, StageResult, Watch, set_machine};
 use super::setup::{Prepared, StagePlan};
 use super::snapshots::Snapshots;
 use super::stage::{Ending, StageWatch};
@@ -55,6 +55,7 @@ pub(super) struct Run<'a> {
     frames_due: Option<Due>,
     checkpoints_due: Option<Due>,
     keeper: Keeper,
+    pictures: PictureOptions,
 }
 
 impl<'a> Run<'a> {
@@ -99,6 +100,7 @@ impl<'a> Run<'a> {
             frames_due: frame_interval(scenario).map(due),
             checkpoints_due: keeper.plan().and_then(|plan| plan.every).map(due),
             keeper,
+            pictures: PictureOptions::default(),
             simulation,
         };
         run.frame()?;
@@ -114,6 +116,7 @@ impl<'a> Run<'a> {
     ) -> Result<RunSummary, RunError> {
         let stage = self.scenario.stages[self.results.len().min(self.plans.len() - 1)].name.clone();
         set_machine(&mut self.simulation, options).map_err(|source| RunError::Switch { stage, source })?;
+        self.pictures = options.pictures;
         match self.stages(stop, watch).and_then(|interrupted| self.finish(interrupted)) {
             Ok(summary) => Ok(summary),
             Err(mut error) => {
@@ -256,7 +259,7 @@ impl<'a> Run<'a> {
 
     fn frame(&mut self) -> Result<(), RunError> {
         match &mut self.snapshots {
-            Some(snapshots) => snapshots.write(&self.simulation, &mut self.output),
+            Some(snapshots) => snapshots.write(self.scenario, &self.simulation, &mut self.output),
             None => Ok(()),
         }
     }
@@ -298,7 +301,7 @@ impl<'a> Run<'a> {
             return Ok(Vec::new());
         }
         let series = Series { measure: &self.measure, rows: &self.rows };
-        report::draw(self.scenario, &self.simulation, &series, &mut self.output)
+        report::draw(self.scenario, &self.simulation, &series, self.pictures, &mut self.output)
     }
 
     fn finish(&mut self, interrupted: Option<StageResult>) -> Result<RunSummary, RunError> {

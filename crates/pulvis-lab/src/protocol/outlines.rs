@@ -1,12 +1,10 @@
-//! The particles as they are at the end of a run.
-
-use std::path::Path;
+//! The walls of a run as pictures and files show them: edges, and axes of cylinders.
 
 use pulvis_boundary::{Cylinder, CylinderSide, WallShape};
-use pulvis_core::{ContactPartner, ParticleId, Simulation};
+use pulvis_core::Simulation;
 use pulvis_input::scenario::Scenario;
-use pulvis_io::IoError;
-use pulvis_io::picture::{OutlineBox, OutlineCylinder, SphereScene, render_spheres};
+use pulvis_io::picture::{OutlineBox, OutlineCylinder};
+use pulvis_io::vtk::{Numbers, PolyData};
 use pulvis_math::Vector3;
 
 use super::setup::box_walls;
@@ -14,73 +12,21 @@ use super::setup::box_walls;
 /// A box that has grown to more than this many times its first size has been blown apart by what it should hold.
 const BLOWN_APART: f64 = 20.0;
 
-/// Draws the particles with the box, coloured by material where there are several, else by the number of their contacts.
-pub(super) fn draw(scenario: &Scenario, simulation: &Simulation, path: &Path) -> Result<(), IoError> {
-    let particles = simulation.particles();
-    let rows = particles.rows_by_id();
-    let centres: Vec<[f64; 3]> = rows.iter().map(|&row| particles.positions()[row].to_array()).collect();
-    let radii: Vec<f64> = rows.iter().map(|&row| particles.radii()[row]).collect();
-    let mut materials: Vec<usize> = particles.materials().iter().map(|&material| material as usize).collect();
-    materials.sort_unstable();
-    materials.dedup();
-    let names: Vec<&str> = materials
-        .iter()
-        .filter_map(|&material| scenario.materials.get(material))
-        .map(|m| m.name.as_str())
-        .collect();
-    let class = |row: usize| {
-        let material = particles.materials()[row] as usize;
-        materials.iter().position(|&known| known == material).map_or(f64::NAN, |number| number as f64)
-    };
-    let mixture = materials.len() > 1 && names.len() == materials.len();
-    let values: Vec<f64> =
-        if mixture { rows.iter().map(|&row| class(row)).collect() } else { contacts_of_each(simulation) };
-    let instant = format!("t = {}", pulvis_io::plot::amount("time [s]", simulation.time()));
-    let title =
-        scenario.title.as_ref().map_or_else(|| instant.clone(), |title| format!("{title}, {instant}"));
+/// The walls as lines of two points each; a cylinder is its axis, with its radius in the column `radius`.
+pub(super) fn walls(scenario: &Scenario, simulation: &Simulation) -> PolyData {
     let cylinders = cylinders(scenario, simulation);
-    let boxes = outlines(scenario, simulation, &centres, &cylinders);
-    let scene = SphereScene {
-        title: &title,
-        bar_label: if mixture { "" } else { "contacts of each particle" },
-        classes: if mixture { &names } else { &[] },
-        boxes: &boxes,
-        cylinders: &cylinders,
-        scale_bar: true,
-        ..SphereScene::new(&centres, &radii, &values)
-    };
-    render_spheres(path, &scene)
-}
-
-/// Touching contacts of each particle, walls included, in the order of the ids.
-fn contacts_of_each(simulation: &Simulation) -> Vec<f64> {
-    let mut ids = simulation.particles().ids().to_vec();
-    ids.sort_unstable();
-    let mut contacts = vec![0.0; ids.len()];
-    let mut count = |id: ParticleId| {
-        // Ids of removed particles are missing.
-        if let Ok(index) = ids.binary_search(&id) {
-            contacts[index] += 1.0;
-        }
-    };
-    simulation.for_each_contact(&mut |contact| {
-        if contact.overlap > 0.0 {
-            count(contact.first);
-            if let ContactPartner::Particle(id) = contact.second {
-                count(id);
-            }
-        }
-    });
-    contacts
+    let boxes = boxes(scenario, simulation, &cylinders);
+    let edges: Vec<[[f64; 3]; 2]> = boxes.iter().flat_map(OutlineBox::edges).collect();
+    let radii = edges.iter().map(|_| 0.0).chain(cylinders.iter().map(|cylinder| cylinder.radius)).collect();
+    let lines = edges.iter().chain(cylinders.iter().map(|cylinder| &cylinder.ends));
+    PolyData {
+        points: lines.flatten().copied().collect(),
+        columns: vec![("radius".to_owned(), Numbers::Scalar(radii))],
+    }
 }
 
 /// The box as far as it is there: whole, or the walls that are left. Where it has been blown apart, the box of the start.
-fn outlines(
-    scenario: &Scenario,
-    simulation: &Simulation,
-    centres: &[[f64; 3]],
-    cylinders: &[OutlineCylinder],
-) -> Vec<OutlineBox> {
+fn boxes(scenario: &Scenario, simulation: &Simulation, cylinders: &[OutlineCylinder]) -> Vec<OutlineBox> {
     let faces: [[Option<f64>; 2]; 3] = std::array::from_fn(|axis| faces(scenario, simulation, axis));
     let start = scenario.enclosure;
     let first =
@@ -105,6 +51,7 @@ fn outlines(
             let size = start.size()[axis];
             [start.lower[axis] - size, start.upper[axis] + size]
         });
+        let centres = simulation.particles().positions();
         let near = centres.iter().map(|centre| centre[axis]).filter(|x| (least..=most).contains(x));
         let [low, high] =
             near.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
