@@ -19,7 +19,8 @@
 //! Column names that OVITO understands unaided: `id`, `type`, `radius`, `v` (velocity), `omega`, `f` (force) for
 //! particles and `id1`, `id2`, `force` for contacts. ParaView takes any name.
 //!
-//! Known limit: in a frame without contacts OVITO 3.17 goes on showing the contacts of the first frame; ParaView shows none.
+//! A frame names no file without lines: OVITO 3.17 would lose its particles. Known limit: in a frame without contacts OVITO
+//! goes on showing the contacts of the first frame; ParaView shows none.
 //!
 //! ```
 //! use pulvis_io::vtk::{Column, ContactFrame, ParticleFrame, SeriesWriter, WallFrame, read_frame, read_series};

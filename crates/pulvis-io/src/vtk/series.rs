@@ -75,7 +75,12 @@ impl SeriesWriter {
         write_contacts(&self.folder.join(&contact_file), contacts)?;
         write_walls(&self.folder.join(&wall_file), walls)?;
         let path = self.folder.join(&frame_file);
-        let blocks = [("Particles", &*particle_file), ("Contacts", &contact_file), ("Walls", &wall_file)];
+        let mut blocks = vec![("Particles", &*particle_file)];
+        // OVITO 3.17 loses all particles of a frame that names a file without lines.
+        let lines = [("Contacts", &*contact_file, contacts.ends), ("Walls", &wall_file, walls.ends)];
+        blocks.extend(
+            lines.iter().filter(|(_, _, ends)| !ends.is_empty()).map(|&(name, file, _)| (name, file)),
+        );
         write_blocks(&path, &blocks)?;
         self.entries.push(Entry { time, file: frame_file });
         write_series(&self.index(), &self.entries)?;
@@ -123,6 +128,7 @@ impl SeriesWriter {
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
     use super::*;
+    use crate::vtk::index::read_blocks;
 
     const NO_PARTICLES: ParticleFrame<'static> = ParticleFrame { positions: &[], columns: &[] };
     const NO_CONTACTS: ContactFrame<'static> = ContactFrame { ends: &[], columns: &[] };
@@ -144,6 +150,20 @@ mod tests {
         let hidden =
             hidden.filter(|entry| entry.as_ref().unwrap().file_name().to_string_lossy().starts_with('.'));
         assert_eq!(hidden.count(), 0, "no temporary file stays");
+    }
+
+    #[test]
+    fn a_frame_names_no_file_without_lines() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut series = SeriesWriter::create(folder.path(), "").unwrap();
+        let frame = series.write(0.0, &NO_PARTICLES, &NO_CONTACTS, &NO_WALLS).unwrap();
+        let named = |frame: &Path| -> Vec<String> {
+            read_blocks(frame).unwrap().into_iter().map(|(name, _)| name).collect()
+        };
+        assert_eq!(named(&frame), ["Particles"]);
+        let walls = WallFrame { ends: &[[[0.0; 3], [1.0; 3]]], radii: &[0.0] };
+        let frame = series.write(1.0, &NO_PARTICLES, &NO_CONTACTS, &walls).unwrap();
+        assert_eq!(named(&frame), ["Particles", "Walls"]);
     }
 
     #[test]

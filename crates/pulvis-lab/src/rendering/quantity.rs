@@ -159,11 +159,18 @@ impl Contacts {
     /// # Errors
     /// The frame has not the columns that a run writes.
     pub(super) fn of(frame: &Frame) -> Result<Self, RenderError> {
+        // A frame without contacts does not even name their columns.
+        let has_none = frame.contacts.points.is_empty();
         let integers = |data: &PolyData, name: &'static str| match data.column(name) {
             Some(Numbers::Integer(values)) => Ok(values.clone()),
+            None if has_none && name != "id" => Ok(Vec::new()),
             _ => Err(RenderError::Column(name)),
         };
-        let scalars = |name| frame.contacts.scalar(name).ok_or(RenderError::Column(name));
+        let scalars = |name| match frame.contacts.scalar(name) {
+            Some(values) => Ok(values),
+            None if has_none => Ok(Vec::new()),
+            None => Err(RenderError::Column(name)),
+        };
         let ids = integers(&frame.particles, "id")?;
         // Frames list particles in the order of their ids.
         let rows = |ids_of: Vec<i64>| ids_of.iter().map(|id| ids.binary_search(id).ok()).collect();
