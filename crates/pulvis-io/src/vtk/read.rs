@@ -205,7 +205,8 @@ mod tests {
                 Column::integer("type", &[-1, i64::MAX]),
             ],
         };
-        let contacts = ContactFrame { ends: &[], columns: &[Column::scalar("overlap", &[])] };
+        let contacts =
+            ContactFrame { ends: &[[[0.0; 3], [1.0; 3]]], columns: &[Column::scalar("overlap", &[0.5])] };
         let walls = WallFrame { ends: &[[[1.0; 3], [2.0; 3]]], radii: &[0.5] };
         let mut series = SeriesWriter::create(folder.path(), "").unwrap();
         series.write(0.25, &particles, &contacts, &walls).unwrap();
@@ -225,7 +226,8 @@ mod tests {
         assert_eq!(particles.column("v"), Some(&Numbers::Vector(vec![[1.0; 3], [2.0; 3]])));
         assert_eq!(particles.column("type"), Some(&Numbers::Integer(vec![-1, i64::MAX])));
         assert_eq!((particles.columns.len(), particles.scalar("v")), (4, None));
-        assert_eq!((contacts.lines().len(), contacts.columns.len()), (0, 1));
+        assert_eq!(contacts.lines(), [[[0.0; 3], [1.0; 3]]]);
+        assert_eq!(contacts.columns, [("overlap".to_owned(), Numbers::Scalar(vec![0.5]))]);
         assert_eq!(walls.lines(), [[[1.0; 3], [2.0; 3]]]);
         assert_eq!(walls.scalar("radius").unwrap(), [0.5]);
         let without = read_frame_without_contacts(&path).unwrap();
