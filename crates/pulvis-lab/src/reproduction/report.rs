@@ -198,7 +198,10 @@ pub(super) fn feature_table(
         row.extend(variants.iter().map(of_variant));
         if several {
             let spread = one.deviation();
-            row.extend([Cell::from(one.mean()), if spread.is_nan() { Cell::from("") } else { Cell::from(spread) }]);
+            row.extend([
+                Cell::from(one.mean()),
+                if spread.is_nan() { Cell::from("") } else { Cell::from(spread) },
+            ]);
         }
         let verdict = match (one.is_seen(), &feature.known_to_miss) {
             (true, _) => "seen".to_owned(),
