@@ -29,8 +29,8 @@ pub use phases::Phases;
 pub use pulvis_boundary::{Background, Domain, Region, TemperatureProgram};
 pub use pulvis_math::InstructionSet;
 pub use simulation::{
-    Alarm, Limits, ListState, ParticleState, Setup, SetupError, Simulation, State, StateError, StepError,
-    WallRecord,
+    Alarm, DeepContact, Limits, ListState, ParticleState, Setup, SetupError, Simulation, State, StateError,
+    StepError, WallRecord,
 };
 pub use time_step::{
     MotionKind, ShortestContact, ShortestMotion, TouchingAtOnce, shortest_contact, shortest_motion,

@@ -6,7 +6,7 @@ mod common;
 use common::*;
 use pulvis_contact::{ContactModel, ExpectedLoading, Hertz};
 use pulvis_core::walls::{FaceArea, PressureRamp, Servo, Velocity, Wall, WallMotion};
-use pulvis_core::{Alarm, Limits, Particle, Setup, Simulation, StepError};
+use pulvis_core::{Alarm, ContactPartner, Limits, Particle, Setup, Simulation, StepError};
 use pulvis_math::Vector3;
 
 /// Advances until an alarm; there must be one within so many steps.
@@ -18,6 +18,10 @@ fn alarm_within(steps: u64, setup: Setup, limits: Limits) -> StepError {
 
 fn falling(speed: f64) -> Particle {
     sphere(vector(0.0, 0.0, 1.5 * RADIUS), vector(0.0, 0.0, -speed), RADIUS)
+}
+
+fn speed_of_first(simulation: &Simulation) -> f64 {
+    simulation.particles().velocities().iter().next().unwrap().norm()
 }
 
 fn one_falling(speed: f64) -> Setup {
@@ -89,6 +93,59 @@ fn two_particles_pressed_into_each_other_stop_the_simulation() {
     let StepError { alarm, .. } = alarm_within(500, two_meeting(20.0), limits);
     let Alarm::Overlap { id: 0, other: 1, overlap, most } = alarm else { panic!("{alarm}") };
     assert!(most == 1.0 && (1.0..1.5).contains(&overlap), "{alarm}");
+}
+
+#[test]
+fn the_first_deep_contact_is_taken_down_with_its_bodies_its_speed_and_its_contact_time() {
+    let limits = Limits { energy_error: f64::INFINITY, overlap: 0.6, ..Limits::default() };
+    // A contact of 200 steps: there are some looks between two lists while it is deep.
+    let mut simulation = start(two_meeting(8.0), 200.0);
+    let contact_time = 200.0 * simulation.time_step();
+    simulation.set_limits(limits);
+    let StepError { step, alarm, .. } = simulation.advance(500).expect_err("no alarm");
+    // The deepest overlap would be 0.9 radii.
+    let Alarm::Overlap { id: 0, other: 1, overlap, most } = alarm else { panic!("{alarm}") };
+    assert!(most == 0.6 && (0.6..0.9).contains(&overlap), "{overlap}");
+    let deep = simulation.first_deep_contact().expect("there is one");
+    assert_eq!((deep.first, deep.second, deep.radius), (0, ContactPartner::Particle(1), RADIUS));
+    assert!((0.3..=overlap).contains(&deep.overlap) && deep.step <= step, "{deep:?}");
+    // They still come closer, slower than at the start.
+    assert!((0.0..16.0).contains(&deep.closing_speed), "{deep:?}");
+    assert!((deep.contact_time / contact_time - 1.0).abs() < 1e-12, "{deep:?}");
+    assert!((deep.contact_time / deep.time_step - 200.0).abs() < 1e-9, "{deep:?}");
+    assert_eq!(simulation.contact_time(0, ContactPartner::Particle(1)), Some(deep.contact_time));
+    assert_eq!(simulation.contact_time(0, ContactPartner::Particle(7)), None);
+}
+
+#[test]
+fn shallow_contacts_are_not_taken_down_and_deep_ones_at_walls_are() {
+    let run = |speed: f64| {
+        let mut simulation = start(one_falling(speed), 50.0);
+        simulation.set_limits(Limits { energy_error: f64::INFINITY, ..Limits::default() });
+        simulation.advance(300).unwrap();
+        simulation.first_deep_contact().copied()
+    };
+    assert_eq!(run(2.0), None, "a sixth of a radius deep");
+    let deep = run(6.0).expect("half a radius deep");
+    assert_eq!((deep.first, deep.second), (0, ContactPartner::Wall(0)));
+    assert!((0.3..0.6).contains(&deep.overlap), "{deep:?}");
+}
+
+#[test]
+fn a_particle_faster_than_the_limit_stops_the_simulation() {
+    let free_fall = |limit: f64| {
+        let mut setup = setup(vec![falling(0.0)], elastic());
+        setup.background.gravity = vector(0.0, 0.0, -1e4);
+        let mut simulation = start(setup, 50.0);
+        simulation.set_limits(Limits { speed: limit, ..Limits::default() });
+        simulation.advance(1000).map(|()| speed_of_first(&simulation))
+    };
+    let fastest = free_fall(f64::INFINITY).unwrap();
+    let StepError { step, time, alarm } = free_fall(0.5 * fastest).expect_err("no alarm");
+    let Alarm::BeyondSpeed { id: 0, speed, most } = alarm else { panic!("{alarm}") };
+    assert_eq!(most, 0.5 * fastest);
+    // Within 64 steps of the moment at which it was reached.
+    assert!((500..=564).contains(&step) && (speed - 1e4 * time).abs() < 1e-9 * speed, "{step}: {speed}");
 }
 
 #[test]

@@ -224,7 +224,7 @@ impl ContactTable {
         }
     }
 
-    /// The candidates that overlapped by more than `least` [m] when they were listed, which must be just now.
+    /// The candidates that may overlap by more than `least` [m]; and others.
     pub(crate) fn deeper_than<'a>(
         &'a self,
         least: f64,
@@ -232,10 +232,20 @@ impl ContactTable {
         images: Images,
         walls: &'a [WallNow],
     ) -> impl Iterator<Item = Deep> + 'a {
-        self.groups().flat_map(move |group| {
+        let groups =
+            self.chunks.iter().flat_map(|chunk| chunk.groups.iter().map(move |group| (chunk, group)));
+        groups.flat_map(move |(chunk, group)| {
             let views = Views { group, particles, images, walls };
-            // The gap is that to the interaction range: no overlap is larger than its opposite.
-            let deep = (0..group.gap.len()).filter(move |&block| -group.gap[block] > least);
+            let closed = match group.partner {
+                Partner::Particle => chunk.approach.pairs,
+                Partner::Wall => chunk.approach.walls,
+            };
+            // The gap is that to the interaction range, when it was listed: no overlap is larger than its opposite and what
+            // it has closed since. Not `>`: where nothing bounds that, all are looked at.
+            let deep = (0..group.gap.len()).filter(move |&block| {
+                let shallow = closed - group.gap[block] <= least;
+                !shallow
+            });
             deep.flat_map(move |block| views.overlaps(block))
         })
     }

@@ -205,6 +205,16 @@ pub enum Alarm {
         /// The limit [1].
         most: f64,
     },
+    /// A particle is faster than the limit that was set.
+    #[error("particle {id} moves at {speed:.4e} m/s, faster than the limit of {most:e} m/s")]
+    BeyondSpeed {
+        /// Which particle.
+        id: ParticleId,
+        /// Its speed [m/s].
+        speed: f64,
+        /// The limit [m/s].
+        most: f64,
+    },
     /// A wall moves so far in a step that particles can pass through it unseen.
     #[error(
         "wall `{wall}` moves {radii:.3} radii of the smallest particle in one time step, more than {most}; its pressure is too high for its mass, or it is driven too fast"
@@ -285,4 +295,23 @@ pub enum Alarm {
         /// The limit [1].
         most: f64,
     },
+}
+
+impl Alarm {
+    /// The particles that it is about, at most two.
+    pub fn particles(&self) -> Vec<ParticleId> {
+        match *self {
+            Self::ParticleLost { id, .. }
+            | Self::ParticleTooFast { id, .. }
+            | Self::BeyondSpeed { id, .. }
+            | Self::BehindWall { id, .. } => vec![id],
+            Self::Overlap { id, other, .. } => vec![id, other],
+            Self::WallLost { .. }
+            | Self::WallTooFast { .. }
+            | Self::WallsCrossed { .. }
+            | Self::TooStiff { .. }
+            | Self::EnergyNotFinite { .. }
+            | Self::EnergyError { .. } => Vec::new(),
+        }
+    }
 }

@@ -10,7 +10,6 @@ use pulvis_math::Vector3;
 
 use super::Simulation;
 use super::errors::{Alarm, StepError};
-use crate::contacts::Deep;
 use crate::ledger::Ledger;
 
 /// Limits of what a simulation may do before [`Simulation::advance`] stops with an [`Alarm`]. NaN and infinity always
@@ -22,6 +21,8 @@ pub struct Limits {
     /// Overlap of two particles over the smaller radius, and of a particle and a wall over its radius [1]. One is where
     /// the centre of the smaller particle enters the larger one, or passes the wall: what comes then is no contact.
     pub overlap: f64,
+    /// Speed of any particle [m/s].
+    pub speed: f64,
     /// Way of any particle and any wall in a time step, over the smallest radius [1]. Longer ones step over contacts.
     pub displacement: f64,
     /// Time steps in the duration π √(m_r/k) of a contact at its present stiffness, at the least [1]. Only contacts of
@@ -36,6 +37,7 @@ impl Limits {
     pub const NONE: Self = Self {
         energy_error: f64::INFINITY,
         overlap: f64::INFINITY,
+        speed: f64::INFINITY,
         displacement: f64::INFINITY,
         steps_per_contact: 0.0,
         walls_may_cross: true,
@@ -50,6 +52,7 @@ impl Default for Limits {
         Self {
             energy_error: 1e-2,
             overlap: 1.0,
+            speed: f64::INFINITY,
             displacement: 0.25,
             steps_per_contact: 10.0,
             walls_may_cross: false,
@@ -73,14 +76,15 @@ impl Simulation {
         self.check_energy(&self.ledger())
     }
 
-    fn alarm(&self, alarm: Alarm) -> StepError {
+    pub(super) fn alarm(&self, alarm: Alarm) -> StepError {
         StepError { step: self.step, time: self.time, alarm }
     }
 
     /// Whether particles and walls are where and as fast as they can be.
     pub(super) fn check_movement(&self) -> Result<(), StepError> {
         self.check_finite()?;
-        let smallest = self.particles.radius.iter().copied().fold(f64::INFINITY, f64::min);
+        self.check_speeds()?;
+        let smallest = self.smallest_radius();
         let (longest, most) = (self.limits.displacement * smallest, self.limits.displacement);
         let fits = |way: f64| way <= longest;
         for (row, velocity) in self.particles.velocity.iter().enumerate() {
@@ -98,6 +102,21 @@ impl Simulation {
             }
         }
         if self.limits.walls_may_cross { Ok(()) } else { self.check_crossing() }
+    }
+
+    /// Whether no particle is faster than the limit.
+    pub(super) fn check_speeds(&self) -> Result<(), StepError> {
+        let most = self.limits.speed;
+        if most == f64::INFINITY {
+            return Ok(());
+        }
+        let speeds = self.particles.velocity.iter().map(|velocity| velocity.vector.norm()).enumerate();
+        match speeds.max_by(|(_, one), (_, other)| one.total_cmp(other)) {
+            Some((row, speed)) if speed > most => {
+                Err(self.alarm(Alarm::BeyondSpeed { id: self.particles.id[row], speed, most }))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Whether all positions and velocities are numbers whose squares are numbers.
@@ -135,33 +154,6 @@ impl Simulation {
                     return Err(self.alarm(Alarm::WallsCrossed { wall, opposite, depth }));
                 }
             }
-        }
-        Ok(())
-    }
-
-    /// Whether no contact is deeper than contacts can be, by the list that has just been made.
-    pub(super) fn check_overlaps(&self) -> Result<(), StepError> {
-        let most = self.limits.overlap;
-        if most == f64::INFINITY {
-            return Ok(());
-        }
-        let smallest = self.particles.radius.iter().copied().fold(f64::INFINITY, f64::min);
-        let (radius, id) = (&self.particles.radius, &self.particles.id);
-        let walls = self.walls_at_rest();
-        let deepest =
-            self.contacts.deeper_than(most * smallest, &self.particles, self.domain.images(), &walls);
-        for Deep { rows: [first, second], wall, overlap } in deepest {
-            let least = if wall.is_some() { radius[first] } else { radius[first].min(radius[second]) };
-            let overlap = overlap / least;
-            if overlap <= most {
-                continue;
-            }
-            return Err(self.alarm(match wall {
-                Some(wall) => {
-                    Alarm::BehindWall { id: id[first], wall: self.walls[wall].name.clone(), overlap, most }
-                }
-                None => Alarm::Overlap { id: id[first], other: id[second], overlap, most },
-            }));
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 mod accessors;
 mod checks;
 mod columns;
+mod diagnosis;
 mod errors;
 mod insertion;
 mod limits;
@@ -12,6 +13,7 @@ mod state;
 mod steps;
 mod switch;
 
+pub use diagnosis::DeepContact;
 pub use errors::{Alarm, SetupError, StepError};
 pub use limits::Limits;
 pub use state::{ListState, ParticleState, State, StateError, WallRecord};
@@ -92,6 +94,8 @@ pub struct Simulation {
     running: Running,
     /// What stops the simulation.
     limits: Limits,
+    /// The first contact that was deeper than contacts should be.
+    first_deep: Option<DeepContact>,
     rebuilds: u64,
 }
 
@@ -211,6 +215,7 @@ impl Simulation {
             mean_radius: 0.0,
             running: Running::default(),
             limits: Limits::NONE,
+            first_deep: None,
             rebuilds: 0,
             walls,
         };

@@ -55,11 +55,14 @@ impl Simulation {
         Ok(())
     }
 
-    /// Draws up the ledger: its scale grows with the energy that is in motion now, and its error must stay small.
+    /// Draws up the ledger: its scale grows with the energy that is in motion now, and its error must stay small, as must
+    /// speeds and overlaps.
     fn survey_energy(&mut self) -> Result<(), StepError> {
         let ledger = self.ledger();
         self.running.scale = ledger.scale;
-        self.check_energy(&ledger)
+        self.check_energy(&ledger)?;
+        self.check_speeds()?;
+        self.survey_overlaps()
     }
 
     /// First half kick and drift.

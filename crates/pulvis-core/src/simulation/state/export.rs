@@ -37,6 +37,7 @@ impl Simulation {
             phases: _,
             // Stop the simulation, but change no bit.
             limits: _,
+            first_deep: _,
             accounting,
             // Follow from the particles.
             materials: _,
