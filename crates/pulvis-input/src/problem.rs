@@ -159,6 +159,9 @@ pub(crate) fn shortened(text: &str, most: usize) -> String {
     text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
 }
 
+/// The longest finding that a message tells in full: texts of the file may be in it.
+const LONGEST_FOUND: usize = 600;
+
 /// The longest value that a message echoes in full.
 pub(crate) const LONGEST_VALUE: usize = 60;
 
@@ -174,6 +177,6 @@ impl Problem {
 
     /// Values that contradict each other: what was found, and what must hold.
     pub fn rule(found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self::Rule { found: found.into(), expected: expected.into() }
+        Self::Rule { found: shortened(&found.into(), LONGEST_FOUND), expected: expected.into() }
     }
 }

@@ -180,3 +180,12 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn numbers_of_any_length_are_not_repeated_in_full() {
+    let digits = "9".repeat(5000);
+    for text in [format!("{digits} m"), digits.clone(), format!("{digits} m^{digits}")] {
+        let message = parse_quantity(&text, Dimension::VELOCITY).unwrap_err().to_string();
+        assert!(message.len() < 400, "{} letters", message.len());
+    }
+}

@@ -68,6 +68,8 @@ impl QuantityRule {
 
     /// How a value is written, for example `"2.5 mm"`; pure numbers need no quotes.
     pub fn example(&self, number: &str) -> String {
+        // Thousands of digits are no example.
+        let number = if number.len() <= LONGEST_NUMBER { number } else { "1" };
         match self.dimension {
             Dimension::NONE => number.to_owned(),
             // Nobody writes grain sizes in metres.
@@ -89,6 +91,9 @@ impl From<Dimension> for QuantityRule {
         Self::of(dimension)
     }
 }
+
+/// The longest number that an example repeats.
+const LONGEST_NUMBER: usize = 30;
 
 /// `a stiffness [N/m]`.
 pub(crate) fn describe(dimension: Dimension) -> String {
