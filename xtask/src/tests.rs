@@ -25,6 +25,8 @@ pub fn run_slow() -> Outcome {
     let killed =
         ["test", "--release", "-p", "pulvis-cli", "--test", "run_command", "--", "--ignored", "--nocapture"];
     run(&mut cargo(&killed))?;
+    let mut fuzz = cargo(&["test", "--release", "-p", "pulvis-lab", "--test", "fuzz", "--", "--nocapture"]);
+    run(fuzz.env("PULVIS_FUZZ_CASES", "100000"))?;
     let mut paths = cargo(&[
         "test",
         "--release",
@@ -36,6 +38,16 @@ pub fn run_slow() -> Outcome {
         "law_friction",
     ]);
     run(paths.env("PULVIS_TESTKIT_CASES", "100"))
+}
+
+/// A driven bed for so many minutes, in the release build.
+pub fn soak(minutes: &str) -> Outcome {
+    if !minutes.parse().is_ok_and(|minutes: f64| minutes > 0.0) {
+        return Err(format!("`{minutes}` is no number of minutes"));
+    }
+    let arguments =
+        ["test", "--release", "-p", "pulvis-core", "--test", "soak", "--", "--ignored", "--nocapture"];
+    run(cargo(&arguments).env("PULVIS_SOAK_MINUTES", minutes))
 }
 
 /// Writes the bits anew that the runs of `crates/pulvis-cli/tests/golden_bits` give now.

@@ -12,14 +12,15 @@ use pulvis_contact::{ContactModel, Linear};
 use pulvis_core::Setup;
 use pulvis_math::Vector3;
 
-const RATIO: f64 = 10.0;
+/// The large radii over the small one.
+const RATIOS: [f64; 4] = [3.0, 5.0, 10.0, 30.0];
 
 /// A small grain in the neck of two large ones that close in on it from both sides, all with friction.
 /// At a height where both contact normals stand at `slope` to the line of the large centres.
-fn neck(friction: f64, slope: f64) -> Setup {
+fn neck(ratio: f64, friction: f64, slope: f64) -> Setup {
     let mut model = ContactModel::frictionless(Linear::new(1000.0, 0.0));
     model.laws.sliding = Some(slider(1000.0 * 2.0 / 7.0, 0.0, friction));
-    let large = RATIO * RADIUS;
+    let large = ratio * RADIUS;
     let apart = large + RADIUS;
     let place = vector(apart * slope.cos(), 0.0, -apart * slope.sin());
     let speed = 0.02;
@@ -34,28 +35,31 @@ fn neck(friction: f64, slope: f64) -> Setup {
 #[test]
 fn a_small_grain_between_large_ones_moves_the_same_with_a_tenth_of_the_step() {
     // From hardly any friction to more than the neck's tangent, which locks the grain.
-    for friction in [0.05, 0.2, 0.5] {
+    let cases = RATIOS.into_iter().flat_map(|ratio| [0.05, 0.2, 0.5].map(|friction| (ratio, friction)));
+    for (ratio, friction) in cases {
         let [coarse, fine] = [50.0, 500.0].map(|steps_per_contact| {
-            let mut neck = start(neck(friction, 0.35), steps_per_contact);
+            let mut neck = start(neck(ratio, friction, 0.35), steps_per_contact);
             advance(&mut neck, (30.0 * steps_per_contact) as usize);
             states(&neck)[0]
         });
         let moved = fine.position.z.abs().max(1e-3 * RADIUS);
         let apart = (coarse.position - fine.position).norm();
-        assert!(apart < 1e-3 * moved, "friction {friction}: {apart} of {moved}");
+        assert!(apart < 1e-3 * moved, "ratio {ratio}, friction {friction}: {apart} of {moved}");
     }
 }
 
 #[test]
 fn a_grain_slips_out_of_the_neck_below_the_locking_friction_only() {
     // Two contacts at the angle s to the horizontal lock a light grain from μ = tan s on: 0.365.
-    let squeezed = |friction: f64| {
-        let mut neck = start(neck(friction, 0.35), 50.0);
-        advance(&mut neck, 1_500);
-        (states(&neck)[0].position.z / RADIUS, neck.ledger().dissipated_sliding)
-    };
-    let [(slipping, lost), (locked, lost_locked)] = [0.2, 0.5].map(squeezed);
-    assert!(slipping > 0.4 && lost > 0.0, "{slipping} {lost}");
-    // The springs of the locked contacts still give way.
-    assert!(locked < 0.1 && lost_locked == 0.0, "{locked} {lost_locked}");
+    for ratio in RATIOS {
+        let squeezed = |friction: f64| {
+            let mut neck = start(neck(ratio, friction, 0.35), 50.0);
+            advance(&mut neck, 1_500);
+            (states(&neck)[0].position.z / RADIUS, neck.ledger().dissipated_sliding)
+        };
+        let [(slipping, lost), (locked, lost_locked)] = [0.2, 0.5].map(squeezed);
+        assert!(slipping > 0.4 && lost > 0.0, "ratio {ratio}: {slipping} {lost}");
+        // The springs of the locked contacts still give way.
+        assert!(locked < 0.1 && lost_locked == 0.0, "ratio {ratio}: {locked} {lost_locked}");
+    }
 }
