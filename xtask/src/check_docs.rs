@@ -21,6 +21,7 @@ pub fn run() -> Outcome {
     for document in WITH_PATHS {
         wrong.extend(missing_paths(document)?);
     }
+    wrong.extend(missing_tests()?);
     let files = tracked()?;
     for file in &files {
         let Ok(text) = std::fs::read_to_string(root().join(file)) else { continue };
@@ -57,6 +58,38 @@ fn missing_paths(document: &str) -> Outcome<Vec<String>> {
     let fixed = paths.filter(|path| !path.contains(['<', '*', ' ', 'N', '\n']));
     let missing = fixed.filter(|path| !root().join(path).exists());
     Ok(missing.map(|path| format!("{document} names `{path}`, which does not exist")).collect())
+}
+
+/// The document that names a test for each promise.
+const PROMISES: &str = "docs/book/src/promises.md";
+
+/// Tests that the promises name behind the file in which they are, and that are not there.
+fn missing_tests() -> Outcome<Vec<String>> {
+    let read =
+        |file: &str| std::fs::read_to_string(root().join(file)).map_err(|error| format!("{file}: {error}"));
+    let (mut missing, mut found) = (Vec::new(), 0);
+    for line in read(PROMISES)?.lines().filter(|line| line.starts_with('|')) {
+        let mut source = None;
+        for word in line.split('`').skip(1).step_by(2) {
+            if word.starts_with("crates/") {
+                source = Some((word, read(word)?));
+            } else if let Some((file, text)) = source.as_ref().filter(|_| is_test_name(word)) {
+                found += 1;
+                if !text.contains(&format!("fn {word}(")) {
+                    missing.push(format!("{PROMISES} names the test `{word}`, which is not in {file}"));
+                }
+            }
+        }
+    }
+    if found < 20 {
+        missing.push(format!("{PROMISES}: only {found} tests were found"));
+    }
+    Ok(missing)
+}
+
+/// Names of tests are sentences.
+fn is_test_name(word: &str) -> bool {
+    word.matches('_').count() >= 3 && word.bytes().all(|byte| byte == b'_' || byte.is_ascii_alphanumeric())
 }
 
 /// Paths that exist on one machine only.

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::Outcome;
 use crate::process::{cargo, pulvis, run};
-use crate::{book, check_docs, experiments, scenarios, tests, threads};
+use crate::{book, check_docs, dependencies, experiments, scenarios, tests, threads};
 
 /// A step, by its name.
 type Step = (&'static str, fn() -> Outcome);
@@ -13,9 +13,10 @@ type Step = (&'static str, fn() -> Outcome);
 /// Everything, in one profile, so that tests, binary and tasks share their builds. A step that fails does not hide the
 /// findings of the next ones.
 pub fn run_all() -> Outcome {
-    let steps: [Step; 10] = [
+    let steps: [Step; 11] = [
         ("formatting", || run(&mut cargo(&["fmt", "--all", "--check"]))),
         ("documents", check_docs::run),
+        ("dependencies", dependencies::check),
         ("lints", lints),
         ("API documentation", documentation),
         ("tests", tests::run_all),

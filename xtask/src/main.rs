@@ -5,6 +5,7 @@
 mod book;
 mod check_docs;
 mod ci;
+mod dependencies;
 mod expected;
 mod experiments;
 mod figures;
@@ -23,7 +24,9 @@ const USAGE: &str = "\
 usage: cargo xtask <task>
 
   test                 all tests, and the VTK files read by Python's VTK where it can be installed
-  slow                 every law in beds of 1000 grains, 200 kills of runs, and a hundred times as many random paths (half an hour)
+  slow                 every law in beds of 1000 grains, 200 kills of runs, 100 000 damaged inputs, and a hundred times as many
+                       random paths (half an hour)
+  soak [MINUTES]       a driven bed for 10 minutes or as long as told: memory, ledger, contacts against brute force
   ci                   everything that must hold before a change is merged
   experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
   scenarios            shows every good and bad scenario of the tests to the pulvis command
@@ -42,6 +45,8 @@ fn main() -> ExitCode {
     let outcome = match words[..] {
         ["test"] => tests::run_all(),
         ["slow"] => tests::run_slow(),
+        ["soak"] => tests::soak("10"),
+        ["soak", minutes] => tests::soak(minutes),
         ["ci"] => ci::run_all(),
         ["experiments"] => experiments::run(None),
         ["experiments", folder] => experiments::run(Some(folder)),
