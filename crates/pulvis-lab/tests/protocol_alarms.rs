@@ -10,8 +10,8 @@ use std::sync::atomic::AtomicBool;
 
 use protocol_scenarios::{Series, options, run_with, scenario, tablet};
 use pulvis_core::{Alarm, MotionKind};
-use pulvis_input::scenario::Scenario;
-use pulvis_lab::protocol::{RunError, prepare};
+use pulvis_input::scenario::{Refusal, Scenario};
+use pulvis_lab::protocol::{RunError, prepare, warnings};
 
 /// 64 grains of 1 mm in a box of 8.8 mm, and what its only stage does.
 fn box_of_grains(stage: &str) -> Scenario {
@@ -155,6 +155,85 @@ fn particles_that_are_too_fast_for_the_time_step_are_refused() {
     assert!(
         message.contains("particles[0].velocity: particle ") && message.contains("radii in a step"),
         "{message}"
+    );
+}
+
+/// Refused with the name of what would let it pass, and let pass with that name.
+#[test]
+fn what_an_expert_may_lift_is_named_by_its_refusal_and_lifted_by_its_name() {
+    let press = |pressure: &str| {
+        format!(
+            "until = {{ time = \"20 ms\" }}\nwalls.z-high = {{ control = \"servo\", pressure = \"{pressure}\", mass = \"1 g\", damping = \"0 kg/s\" }}"
+        )
+    };
+    let drive = |speed: &str, time: &str| {
+        format!(
+            "until = {{ time = \"{time}\" }}\nwalls.z-high = {{ control = \"velocity\", velocity = [\"0 m/s\", \"0 m/s\", \"{speed}\"] }}"
+        )
+    };
+    let rest = "until = { time = \"1 ms\" }";
+    let dashpot = "[contacts.grain-grain.viscosity]\nlaw = \"constant\"\ngamma_0 = \"10 kg/s\"\n";
+    let with = |text: &str, addition: &str| {
+        scenario(
+            &box_of_grains(text).source.text.replace("[[particles]]", &format!("{addition}[[particles]]")),
+        )
+    };
+    let closer = box_of_grains(rest).source.text.replace("2.2 mm", "1.7 mm");
+    for (refusal, scenario) in [
+        (Refusal::Pressure, box_of_grains(&press("1 GPa"))),
+        (Refusal::Speed, box_of_grains(&drive("-1e3 m/s", "1 us"))),
+        (Refusal::CrossingWalls, box_of_grains(&drive("-1 m/s", "20 ms"))),
+        (Refusal::TimeStep, with(rest, "[time]\nstep = \"40 us\"\n")),
+        (Refusal::Overdamped, with(rest, dashpot)),
+        (Refusal::Overlap, scenario(&closer)),
+    ] {
+        let message = refused(&scenario);
+        let advice = format!("; who knows better lets it pass with `--allow {}`", refusal.name());
+        assert!(message.contains(&advice), "{message}");
+        let mut allowed = scenario.clone();
+        allowed.allow(&Refusal::ALL.into_iter().filter(|other| *other != refusal).collect::<Vec<_>>());
+        assert!(refused(&allowed).contains(&advice), "no other name lifts it");
+        allowed.allow = vec![refusal];
+        let prepared = prepare(&allowed).unwrap_or_else(|error| panic!("{error}"));
+        let told = warnings(&allowed, &prepared);
+        let expected = format!("allowed by `{}`: {}", refusal.name(), refusal.meaning());
+        assert!(told.contains(&expected), "{told:?}");
+        let again = Scenario::from_str("run.toml", &allowed.to_resolved_toml("1")).unwrap();
+        assert_eq!(again.allow, [refusal]);
+    }
+}
+
+#[test]
+fn an_alarm_names_the_first_deep_contact_and_the_step_that_was_too_long_for_it() {
+    // A sixth of the shortest contact, which is that of the steepest branch.
+    let text = box_of_grains("until = { time = \"20 ms\" }").source.text;
+    let text = text.replace("[[particles]]", "[time]\nstep = \"48 us\"\n[[particles]]");
+    let mut scenario = scenario(&text.replace("\"0.1 m/s\"", "\"4 m/s\""));
+    scenario.allow(&[Refusal::TimeStep, Refusal::Speed]);
+    let folder = tempfile::tempdir().unwrap();
+    let error = run_with(&scenario, &options(folder.path()), &AtomicBool::new(false), &mut |_| {});
+    let text = error.expect_err("the run is done").to_string();
+    assert!(text.contains("\n  likely cause: the first contact beyond 30 % overlap was "), "{text}");
+    assert!(
+        text.contains("; its time step was 1/6 of its contact time: the time step is too long"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_particle_beyond_the_speed_and_a_contact_beyond_the_overlap_of_the_scenario_stop_the_run() {
+    let limited = |limit: &str| {
+        let stage = "until = { time = \"5 ms\" }\nwalls.z-high = { control = \"velocity\", velocity = [\"0 m/s\", \"0 m/s\", \"-1 m/s\"] }";
+        let text = box_of_grains(stage).source.text;
+        scenario(&text.replace("[output]", &format!("[limits]\n{limit}\n[output]")))
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let found = alarm(&limited("speed = \"0.9 m/s\""), &folder.path().join("speed"));
+    assert!(matches!(found, Alarm::BeyondSpeed { most: 0.9, .. }), "{found}");
+    let found = alarm(&limited("overlap = 0.005"), &folder.path().join("overlap"));
+    assert!(
+        matches!(found, Alarm::Overlap { most: 0.005, .. } | Alarm::BehindWall { most: 0.005, .. }),
+        "{found}"
     );
 }
 

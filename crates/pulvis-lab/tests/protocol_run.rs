@@ -200,7 +200,7 @@ fn a_folder_in_use_is_refused_and_force_writes_over_the_run_alone() {
 #[test]
 fn what_only_the_particles_can_tell_is_refused_before_anything_is_written() {
     for (changes, words) in [
-        ([("spacing = \"10.8 um\"", "spacing = \"8 um\"")], "of its radius at the start"),
+        ([("spacing = \"10.8 um\"", "spacing = \"8 um\"")], "of the smaller radius at the start"),
         (
             [("time = { steps_per_contact_time = 50 }", "time = { step = \"1e-9 s\" }")],
             "longer than 1/10 of the shortest motion",

@@ -8,6 +8,7 @@ use protocol_scenarios::{Series, run, scenario};
 use pulvis_input::Document;
 use pulvis_input::collision::CollisionScenario;
 use pulvis_input::probe::ProbeScenario;
+use pulvis_input::scenario::Refusal;
 use pulvis_lab::collision::sweep;
 use pulvis_lab::probe::probe;
 use pulvis_lab::protocol::{Sticking, preflight};
@@ -151,7 +152,9 @@ fn a_check_names_bonds_that_are_overdamped() {
             "[contacts.one-other.bond]\nlaw = \"elastic-brittle\"\nform = \"first-touch\"\nnormal_stiffness = \"1e3 N/m\"\n\
              shear_stiffness = \"500 N/m\"\ntensile_strength = \"1e-3 N\"\ndamping_time = \"{time}\""
         );
-        preflight(&scenario(&two_grains(&bond, [""; 2]))).unwrap().warnings
+        let mut scenario = scenario(&two_grains(&bond, [""; 2]));
+        scenario.allow(&[Refusal::Overdamped]);
+        preflight(&scenario).unwrap().warnings
     };
     // Along the bond τ k/(2 √(k m_r)) = τ √(k/m_r)/2 with m_r = 5.236 mg: 1 at 0.145 ms.
     let of_bonds =

@@ -14,6 +14,7 @@ use pulvis_lab::protocol::{
     ContactForecast, Preflight, StageForecast, Sticking, load_scenario, memory_forecast, preflight,
 };
 
+use super::allow::Allowed;
 use super::set::Settings;
 use super::words::{bytes, duration};
 use crate::failure::{Failure, print};
@@ -29,6 +30,8 @@ pub struct Arguments {
     files: Vec<PathBuf>,
     #[command(flatten)]
     set: Settings,
+    #[command(flatten)]
+    allowed: Allowed,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
@@ -49,7 +52,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 fn check(file: &Path, arguments: &Arguments) -> Result<String, Failure> {
-    let scenario = load_scenario(file, &arguments.set.pairs).map_err(Failure::bad_input)?;
+    let mut scenario = load_scenario(file, &arguments.set.pairs).map_err(Failure::bad_input)?;
+    arguments.allowed.apply(&mut scenario);
     tell_memory_of_many(&scenario);
     let forecast = preflight(&scenario).map_err(Failure::bad_input)?;
     Ok(describe(&scenario, &forecast))
@@ -92,7 +96,7 @@ fn describe(scenario: &Scenario, forecast: &Preflight) -> String {
         let heading = if number == 0 { "stages" } else { "" };
         let _ = writeln!(text, "{heading:<17} {}", describe_stage(stage));
     }
-    describe_memory(&mut text, forecast);
+    describe_memory(&mut text, scenario, forecast);
     let _ = writeln!(text, "time              {}", describe_time(forecast));
     describe_output(&mut text, scenario, forecast);
     for warning in &forecast.warnings {
@@ -163,14 +167,15 @@ fn describe_output(text: &mut String, scenario: &Scenario, forecast: &Preflight)
     );
 }
 
-fn describe_memory(text: &mut String, forecast: &Preflight) {
+fn describe_memory(text: &mut String, scenario: &Scenario, forecast: &Preflight) {
     let of_a_particle = |memory: u64| memory as f64 / forecast.particles.max(1) as f64;
-    let start = forecast.memory as u64;
+    let start = forecast.memory;
     let _ = writeln!(
         text,
-        "memory            {} for {} candidate contacts at the start, {:.0} bytes a particle",
+        "memory            {} for {} candidate contacts at the start{}, {:.0} bytes a particle",
         bytes(start),
         forecast.candidates,
+        if scenario.output.checkpoints.is_some() { " and two states for checkpoints" } else { "" },
         of_a_particle(start)
     );
     // What starts as a packing has its contacts already.

@@ -1,7 +1,9 @@
 //! One file a command; the list is here.
 
+mod allow;
 mod check;
 mod collide;
+mod explain;
 mod info;
 mod laws;
 mod machine;
@@ -32,6 +34,8 @@ pub enum Command {
     Render(render::Arguments),
     /// Says what checkpoints of runs hold, and whether they are whole
     Info(info::Arguments),
+    /// Says what stopped a run, and what it was like before
+    Explain(explain::Arguments),
     /// Collides two bodies, over a sweep of velocities, angles, spins or law parameters
     Collide(collide::Arguments),
     /// Leads a contact along a prescribed path, as an indenter does
@@ -52,6 +56,7 @@ impl Command {
             Self::Run(arguments) => run::execute(arguments),
             Self::Render(arguments) => render::execute(arguments),
             Self::Info(arguments) => info::execute(arguments),
+            Self::Explain(arguments) => explain::execute(arguments),
             Self::Collide(arguments) => collide::execute(arguments),
             Self::Probe(arguments) => probe::execute(arguments),
             Self::Laws(arguments) => laws::execute(arguments),

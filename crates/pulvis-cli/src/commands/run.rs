@@ -10,6 +10,7 @@ use clap::Args;
 use pulvis_core::InstructionSet;
 use pulvis_lab::protocol::{PictureOptions, Progress, RunOptions, RunSummary, load_scenario, resume, run};
 
+use super::allow::Allowed;
 use super::picture_file::Resolution;
 use super::progress::ProgressLine;
 use super::set::Settings;
@@ -23,13 +24,15 @@ pub struct Arguments {
     #[arg(required_unless_present = "resume")]
     file: Option<PathBuf>,
     /// Go on with the interrupted run in this folder, from its latest checkpoint, or from the checkpoint file that is named
-    #[arg(long, value_name = "RUN", conflicts_with_all = ["file", "output", "force", "pairs"])]
+    #[arg(long, value_name = "RUN", conflicts_with_all = ["file", "output", "force", "pairs", "names"])]
     resume: Option<PathBuf>,
     /// Output folder, instead of the scenario's own
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
     set: Settings,
+    #[command(flatten)]
+    allowed: Allowed,
     /// Remove the files of the run that is in the output folder, if it has ended, and run again
     #[arg(long)]
     force: bool,
@@ -64,7 +67,11 @@ fn instruction_set(name: &str) -> Result<InstructionSet, String> {
 
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let scenario = match &arguments.file {
-        Some(file) => Some(load_scenario(file, &arguments.set.pairs).map_err(Failure::bad_input)?),
+        Some(file) => {
+            let mut scenario = load_scenario(file, &arguments.set.pairs).map_err(Failure::bad_input)?;
+            arguments.allowed.apply(&mut scenario);
+            Some(scenario)
+        }
         None => None,
     };
     let stop = Arc::new(AtomicBool::new(false));

@@ -26,7 +26,7 @@ fn check_says_what_the_run_will_be_like_and_writes_nothing() {
         "sticks from 1.5269e-1 to 3.5262e-1 m/s",
         "mix: time step 5.7509e-6 s, 174 steps, shortest motion 2.8755e-4 s (grain-grain)",
         "memory            ",
-        " candidate contacts at the start, ",
+        " candidate contacts at the start and two states for checkpoints, ",
         " with the contacts of a dense packing, 12 neighbours each: ",
         " bytes a particle\n",
         "steps/s on this machine",
@@ -66,11 +66,16 @@ fn speeds_of_sticking_are_those_with_the_dashpot() {
     let number = |position: usize| words[position].parse::<f64>().unwrap();
     assert!(number(2) < 0.1 && number(4) > 0.5, "{line}");
     assert!(line.ends_with(" m/s, head on, by collisions"), "{line}");
-    let overdamped = checked("overdamped", &[(NORMAL, &dashpot("10"))]);
+    let place = Place::new("overdamped", &[(NORMAL, &dashpot("10"))]);
+    let refused = error(&place.pulvis(&["check", "s.toml"]));
+    let at = "error: s.toml:6:13: contacts.grain-grain.viscosity: contact grain-grain (stage mix): the dashpot along the normal is 109 times the critical one; such a contact creeps, and makes the time step shorter than its springs need; expected at most the critical one\n";
+    assert!(refused.starts_with(at), "{refused}");
+    let overdamped = out(&place.pulvis(&["check", "s.toml", "--allow", "overdamped"]));
     // 10 kg/s over 2 √(kp m/2) = 2 √(500 N/m · 4.1888e-6 kg) = 9.1529e-2 kg/s.
     assert_eq!(
         warnings(&overdamped),
         [
+            "allowed by `overdamped`: contacts with dashpots beyond critical",
             "contact grain-grain (stage mix): the dashpot along the normal is 109 times the critical one; such a contact creeps, and makes the time step shorter than its springs need"
         ]
     );
@@ -138,6 +143,30 @@ fn a_folder_that_a_run_would_refuse_and_the_room_for_its_files_are_told() {
     assert!((0.5..2.0).contains(&(told / truth)), "{told} kB told, {truth} kB written");
 }
 
+#[test]
+fn output_that_certainly_does_not_fit_onto_the_disk_is_refused() {
+    let every_step =
+        [(UNTIL, r#"until = { time = "1e9 s" }"#), ("{ steps = 10 }", "{ steps = 10 }\nvtk = { steps = 1 }")];
+    let place = Place::new("full_disk", &every_step);
+    for command in [&["check", "s.toml"][..], &["run", "s.toml", "--output", "out"]] {
+        let refused = place.pulvis(command);
+        assert_eq!(refused.status.code(), Some(2));
+        let text = error(&refused);
+        assert!(text.starts_with("error: s.toml:24:7: output.vtk: the files take "), "{text}");
+        assert!(text.contains(" GB are free at ") && text.contains("`--allow disk`"), "{text}");
+    }
+    assert!(!place.0.join("out").exists());
+    let allowed = out(&place.pulvis(&["check", "s.toml", "--allow", "disk"]));
+    let told = warnings(&allowed);
+    assert_eq!(
+        told,
+        [
+            "allowed by `disk`: more output than fits onto the disk",
+            "the disk has not enough room for the output"
+        ]
+    );
+}
+
 /// A lattice of so many layers of a million sites each, in a box that holds it.
 fn layers(count: usize) -> [(&'static str, String); 2] {
     let lattice = LATTICE.replace("[3, 3, 3]", &format!("[1000, 1000, {count}]"));
@@ -179,6 +208,7 @@ fn more_particles_than_the_memory_holds_are_refused_before_any_is_made() {
             text.contains(" GB of memory are available; expected particles that fit into the memory"),
             "{text}"
         );
+        assert!(text.contains("lets it pass with `--allow memory`"), "{text}");
     }
     assert!(!place.0.join("out").exists());
 }

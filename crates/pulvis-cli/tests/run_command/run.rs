@@ -137,7 +137,7 @@ fn particles_that_overlap_deeply_at_the_start_are_refused() {
     refused(
         "overlap",
         &[("spacing = \"2.2 mm\"", "spacing = \"1.7 mm\"")],
-        "error: s.toml:10:15: particles[0].arrangement: particle 0 overlaps particle 1 by 30 % of its radius at the start; expected at most 10 %",
+        "error: s.toml:10:15: particles[0].arrangement: particle 0 overlaps particle 1 by 30 % of the smaller radius at the start; expected at most 10 %",
     );
 }
 

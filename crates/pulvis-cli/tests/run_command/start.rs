@@ -4,31 +4,26 @@ use crate::place::*;
 
 use std::fs;
 
-/// Three stages, the first of which is kept.
-const PARENT: &str = r#"[materials.grain]
-density = "2000 kg/m^3"
+/// [`TINY`] with friction, a wall that moves and drag: the first of three stages, which is kept.
+fn first_stage() -> String {
+    let (before, _) = TINY.split_once("[output]").unwrap();
+    let changes = [
+        (
+            "phi_f = 0.05 }\n",
+            "phi_f = 0.05 }\nsliding = { law = \"spring-slider\", kt = \"20 N/m\", mu = 0.5 }\n",
+        ),
+        ("until = { time = \"1 ms\" }\n", FIRST),
+    ];
+    changes.iter().fold(before.to_owned(), |text, (old, new)| {
+        assert!(text.contains(old), "{old}");
+        text.replace(old, new)
+    })
+}
 
-[contacts.grain-grain]
-normal = { law = "luding", k1 = "100 N/m", kp = "500 N/m", kc = "100 N/m", phi_f = 0.05 }
-sliding = { law = "spring-slider", kt = "20 N/m", mu = 0.5 }
-
-[[particles]]
-material = "grain"
-radius = { distribution = "fixed", value = "1 mm" }
-arrangement = { kind = "lattice", lower = ["0 mm", "0 mm", "0 mm"], counts = [3, 3, 3], spacing = "2.2 mm" }
-velocity = { standard_deviation = "1 m/s" }
-
-[box]
-lower = ["0 mm", "0 mm", "0 mm"]
-upper = ["6.6 mm", "6.6 mm", "6.6 mm"]
-material = "grain"
-
-[[stages]]
-name = "mix"
-until = { time = "3 ms" }
+/// What the first stage does.
+const FIRST: &str = r#"until = { time = "3 ms" }
 walls.x-high = { control = "cosine", displacement = ["-0.2 mm", "0 mm", "0 mm"], period = "2 ms", cycles = 2.0 }
 set = { "background.drag" = "1e-5 kg/s" }
-
 "#;
 
 /// The stages that follow.
@@ -55,7 +50,7 @@ fn run(place: &Place, file: &str, folder: &str) {
 
 /// The parent in `parent`.
 fn parent(name: &str) -> Place {
-    let place = Place::with(name, &format!("{PARENT}{REST}"), &[]);
+    let place = Place::with(name, &format!("{}{REST}", first_stage()), &[]);
     run(&place, "s.toml", "parent");
     place
 }

@@ -33,6 +33,7 @@
 //! # Ok::<(), pulvis_input::InputErrors>(())
 //! ```
 
+mod allow;
 mod arrangement;
 mod axis;
 mod columns;
@@ -59,6 +60,7 @@ mod wall_shape;
 mod walls;
 
 pub use crate::contact::NamedLaw;
+pub use allow::Refusal;
 pub use arrangement::{Arrangement, Grain};
 pub use axis::{Axis, BoxFace, Side};
 pub use columns::ParticleColumn;
@@ -119,6 +121,8 @@ pub struct Scenario {
     pub time: TimeStep,
     /// The stages, at least one.
     pub stages: Vec<Stage>,
+    /// The refusals that the author has lifted, in their order, each once.
+    pub allow: Vec<Refusal>,
     /// What stops the run.
     pub limits: Limits,
     /// What is written.
@@ -199,6 +203,18 @@ impl Scenario {
             (scenario.background, scenario.time) = (stage.background, stage.time);
         }
         scenario
+    }
+
+    /// Lifts refusals beside those that the file lifts.
+    pub fn allow(&mut self, refusals: &[Refusal]) {
+        self.allow.extend(refusals);
+        self.allow.sort_unstable();
+        self.allow.dedup();
+    }
+
+    /// Whether the author has lifted a refusal.
+    pub fn allows(&self, refusal: Refusal) -> bool {
+        self.allow.contains(&refusal)
     }
 
     /// The index of a material.

@@ -7,7 +7,7 @@ use crate::reader::TableReader;
 use crate::shape::{Boolean, Integer, Name, Text};
 use crate::value_reader::ValueReader;
 use pulvis_math::Dimension;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// What a run writes.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,7 +99,18 @@ pub(super) fn read_output(
         dimensionless: None,
     };
     let Some(mut table) = root.optional_table("output")? else { return Ok(default) };
-    let folder = table.optional("folder", Text);
+    let folder = table.optional("folder", Text).and_then(|folder| match folder {
+        Some(text) if leaves(&text) => {
+            let problem = Problem::rule(
+                format!("the folder {text:?} is not below the current one"),
+                "a relative path without `..`",
+            );
+            let help =
+                "a file is not to write anywhere: name other places on the command line, `--output DIR`";
+            Err(table.refuse_with_help("folder", problem, help))
+        }
+        folder => Ok(folder),
+    });
     let timeseries = table.value("timeseries").map(|value| read_interval(&value)).transpose();
     let snapshots = table.value("vtk").map(|value| read_snapshots(&value)).transpose();
     let plots = table.or("plots", Boolean, default.plots);
@@ -119,6 +130,12 @@ pub(super) fn read_output(
         checkpoints: checkpoints?.unwrap_or(default.checkpoints),
         dimensionless: dimensionless?,
     })
+}
+
+/// Whether a path leads out of the current folder.
+fn leaves(path: &str) -> bool {
+    let stays = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
+    !Path::new(path).components().all(stays)
 }
 
 fn read_snapshots(value: &ValueReader<'_>) -> Result<Snapshots, Reported> {

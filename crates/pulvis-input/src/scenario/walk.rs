@@ -1,5 +1,6 @@
 //! The walk over a scenario file, first as it stands, then once more for every stage that switches.
 
+use super::allow::read_allow;
 use super::columns::needs_quantity;
 use super::contacts::{Contact, MaterialUse, read_contacts};
 use super::domain::{read_background, read_domain};
@@ -26,10 +27,11 @@ use pulvis_contact::bond::Form;
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
-const KEYS: [&str; 16] = [
+const KEYS: [&str; 17] = [
     "title",
     "start_from",
     "seed",
+    "allow",
     "gravity",
     "domain",
     "materials",
@@ -70,6 +72,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     }
     let title = root.optional("title", Text);
     let seed = root.or("seed", Integer::at_least(0), 1);
+    let allow = read_allow(&mut root);
     let start_from = read_start(&mut root, folder);
     let domain = read_domain(&mut root);
     let time = read_time(&mut root, TimeStep::default());
@@ -119,6 +122,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         walls: walls.walls,
         time: time?,
         stages: Vec::new(),
+        allow: allow?,
         limits: limits?,
         output: output?,
     };

@@ -11,15 +11,16 @@ use pulvis_input::scenario::{Contact, Scenario, Stage};
 use pulvis_input::{BodyQuantity, NamedLaw, Surroundings};
 use pulvis_math::elementary;
 
-use super::disk::{DiskForecast, disk_forecast};
+use super::damping::damping_ratios;
+use super::disk::{DiskForecast, disk_forecast, refuse_full_disk};
 use super::error::PrepareError;
 use super::folder;
 use super::measure::Measure;
-use super::memory::memory_forecast;
+use super::memory::{held_states, memory_forecast};
 use super::setup::{Prepared, describe_motion, prepare};
 use super::stage::LEAST_STEPS_TO_REST;
 use super::timing::stage_costs;
-use super::warnings::{damping_ratios, warnings};
+use super::warnings::warnings;
 use crate::collision::sticking_ranges;
 
 /// Seconds for which the speeds of sticking are sought by collisions; they are left out for further contacts.
@@ -43,8 +44,9 @@ pub struct Preflight {
     pub contacts: Vec<ContactForecast>,
     /// What the stages will be like.
     pub stages: Vec<StageForecast>,
-    /// Memory that the run needs at its start, by the sizes of particles and candidates [byte].
-    pub memory: usize,
+    /// Memory that the run needs at its start, by the sizes of particles and candidates, with the states that are held for
+    /// checkpoints [byte].
+    pub memory: u64,
     /// Memory that it would need if the particles came to a dense packing, twelve neighbours each [byte];
     /// `None` where that cannot be told.
     pub packed_memory: Option<u64>,
@@ -158,7 +160,7 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
         total_mass: particles.iter().map(|particle| particle.mass).sum(),
         contacts: forecasts(scenario, particles),
         stages: stages(scenario, &prepared),
-        memory: prepared.simulation.memory_size(),
+        memory: prepared.simulation.memory_size() as u64 + held_states(scenario, particles.len()),
         packed_memory: memory.map(|memory| memory.packed),
         available_memory: memory.and_then(|memory| memory.available),
         candidates: prepared.simulation.candidates(),
@@ -174,6 +176,7 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
         warnings: warnings(scenario, &prepared),
     };
     let columns = Measure::new(scenario, &prepared.simulation).columns().len();
+    refuse_full_disk(scenario, &scenario.output.folder, forecast.particles, columns, &forecast.stages)?;
     forecast.disk =
         disk_forecast(scenario, &scenario.output.folder, forecast.particles, columns, &forecast.stages);
     forecast.frame_seconds = forecast.disk.snapshots / WRITTEN;
@@ -307,7 +310,7 @@ fn forecast(
     }
 }
 
-fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForecast> {
+pub(super) fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForecast> {
     let plans = scenario.stages.iter().zip(&prepared.stages);
     plans
         .map(|(stage, plan)| {

@@ -2,9 +2,12 @@
 
 use std::path::Path;
 
-use pulvis_input::scenario::{Interval, Scenario, Snapshots};
+use pulvis_input::Problem;
+use pulvis_input::scenario::{Interval, Refusal, Scenario, Snapshots};
 
+use super::allow::refuse_unless_allowed;
 use super::check::StageForecast;
+use super::error::PrepareError;
 use super::resources::free_disk_space;
 
 /// Bytes of a number in the time series, on the average.
@@ -74,6 +77,35 @@ pub(super) fn disk_forecast(
         checkpoints: checkpoints(scenario) * particles as f64 * STATE,
         free: free_disk_space(folder),
     }
+}
+
+/// Refuses a run whose files certainly take more room than there is in the folder's disk.
+pub(super) fn refuse_full_disk(
+    scenario: &Scenario,
+    folder: &Path,
+    particles: usize,
+    columns: usize,
+    stages: &[StageForecast],
+) -> Result<(), PrepareError> {
+    let shortest: Vec<StageForecast> = stages
+        .iter()
+        .map(|stage| StageForecast { steps: Some(stage.least_steps), ..stage.clone() })
+        .collect();
+    let least = disk_forecast(scenario, folder, particles, columns, &shortest);
+    let Some(free) = least.free.filter(|free| least.total() > *free as f64) else { return Ok(()) };
+    let found = format!(
+        "the files take {:.1} GB at least, and {:.1} GB are free at {}",
+        least.total() / 1e9,
+        free as f64 / 1e9,
+        folder.display()
+    );
+    let paths = match least.snapshots > least.timeseries {
+        true => ["output.vtk", "output"],
+        false => ["output.timeseries", "output"],
+    };
+    let problem = Problem::rule(found, "files that fit onto the disk");
+    let help = "write less often, or choose a folder on another disk with `--output DIR`";
+    refuse_unless_allowed(scenario, Refusal::Disk, &[paths[0], paths[1], "stages[0]"], problem, help)
 }
 
 /// Checkpoints that are on the disk at the same time at most.

@@ -67,8 +67,17 @@ pub enum PrepareError {
     #[error("{0}")]
     Input(Box<InputErrors>),
     /// There is nothing to go on with.
-    #[error("{} holds no run of Pulvis that could be resumed; name the output folder of a run", .folder.display())]
+    #[error(
+        "{} holds no run of Pulvis that could be resumed; name the output folder of a run, or a checkpoint in it",
+        .folder.display()
+    )]
     NothingToResume {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// There is nothing to explain.
+    #[error("{} holds no run of Pulvis; name the output folder of a run", .folder.display())]
+    NothingToExplain {
         /// The folder.
         folder: PathBuf,
     },
@@ -108,15 +117,18 @@ pub enum RunError {
     Prepare(#[from] PrepareError),
     /// What happened in a step cannot be right.
     #[error(
-        "stage `{stage}`, {source}\n  the run has stopped; the files in {} are complete up to there{}",
+        "stage `{stage}`, {source}\n  likely cause: {cause}\n  the run has stopped; the files in {} are complete up to there{}; `pulvis explain {}` tells more",
         .folder.display(),
-        .saved.map_or(String::new(), |step| format!("; its last checkpoint is of step {step}"))
+        .saved.map_or(String::new(), |step| format!("; its last checkpoint is of step {step}")),
+        .folder.display()
     )]
     Step {
         /// The stage.
         stage: String,
         /// Why.
         source: Box<StepError>,
+        /// What has led to it, as far as the state tells.
+        cause: String,
         /// The output folder.
         folder: PathBuf,
         /// The step of the last checkpoint, if there is one.

@@ -7,9 +7,10 @@ use pulvis_boundary::Shape;
 use pulvis_core::walls::{FaceArea, Wall, WallMotion};
 use pulvis_core::{Limits, Particle, TouchingAtOnce};
 use pulvis_input::Problem;
-use pulvis_input::scenario::{Scenario, Stage, StopRules, WallControl};
+use pulvis_input::scenario::{Refusal, Scenario, Stage, StopRules, WallControl};
 use pulvis_math::Vector3;
 
+use super::allow::refuse_unless_allowed;
 use super::error::PrepareError;
 use super::setup::{StagePlan, group_path};
 
@@ -126,7 +127,7 @@ impl Course<'_> {
         let paths = [format!("{group}.velocity"), format!("{group}.arrangement")];
         let help =
             "lower the speed, or shorten the step, for example by more `steps_per_contact_time` in [time]";
-        Err(self.scenario.mistake(&[&paths[0], &paths[1]], problem, help).into())
+        refuse_unless_allowed(self.scenario, Refusal::Speed, &[&paths[0], &paths[1]], problem, help)
     }
 
     fn check_wall_speed(
@@ -145,7 +146,7 @@ impl Course<'_> {
         for (key, what, speed) in ways {
             if let Some(problem) = self.too_fast(what, speed, time_step) {
                 let help = "lower the speed, or shorten the step, for example by more `steps_per_contact_time` in [time]";
-                return Err(self.refuse(stage, place, key, problem, help));
+                self.refuse(Refusal::Speed, stage, place, key, (problem, help))?;
             }
         }
         Ok(())
@@ -179,13 +180,8 @@ impl Course<'_> {
             "at most {:.4e} Pa with contacts of {stiffness:e} N/m",
             largest * stiffness / cross_section
         );
-        Err(self.refuse(
-            stage,
-            place,
-            "pressure",
-            Problem::rule(found, expected),
-            "lower the pressure, or stiffen the contact",
-        ))
+        let help = "lower the pressure, or stiffen the contact";
+        self.refuse(Refusal::Pressure, stage, place, "pressure", (Problem::rule(found, expected), help))
     }
 
     /// Refuses walls that meet while their motion is prescribed.
@@ -206,7 +202,7 @@ impl Course<'_> {
                     let moves = |place: &usize| walls[*place].wall.motion != WallMotion::Fixed;
                     let place = [one, other].into_iter().find(moves).unwrap_or(one);
                     let help = "lower the velocity, shorten the stage, or end it by `strain` or `stress`";
-                    return Err(self.refuse(stage, place, "velocity", problem, help));
+                    return self.refuse(Refusal::CrossingWalls, stage, place, "velocity", (problem, help));
                 }
             }
         }
@@ -214,10 +210,17 @@ impl Course<'_> {
     }
 
     /// A mistake of what a stage does with a wall; of the stage, if an earlier one began it.
-    fn refuse(&self, stage: usize, place: usize, key: &str, problem: Problem, help: &str) -> PrepareError {
+    fn refuse(
+        &self,
+        refusal: Refusal,
+        stage: usize,
+        place: usize,
+        key: &str,
+        (problem, help): (Problem, &str),
+    ) -> Result<(), PrepareError> {
         let table = format!("stages[{stage}].walls.{}", self.scenario.walls[place].name);
         let paths = [format!("{table}.{key}"), table, format!("stages[{stage}].until")];
-        self.scenario.mistake(&[&paths[0], &paths[1], &paths[2]], problem, help).into()
+        refuse_unless_allowed(self.scenario, refusal, &[&paths[0], &paths[1], &paths[2]], problem, help)
     }
 }
 

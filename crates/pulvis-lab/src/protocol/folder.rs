@@ -15,6 +15,7 @@ use pulvis_io::name_of_temporary;
 
 use super::checkpoint::is_checkpoint;
 use super::error::{PrepareError, RunError};
+use super::explain::ALARM;
 use super::lock::{LOCK, Lock, lock};
 
 /// The record of the files of a run.
@@ -232,7 +233,7 @@ fn may_be_written(name: &str) -> bool {
         Some((name, "png" | "svg")) => ["energies", "stress", "force_displacement"].contains(&name),
         _ => false,
     };
-    let others = [RECORD, LIST, "timeseries.csv", "series.pvd", "particles.png"];
+    let others = [RECORD, LIST, ALARM, "timeseries.csv", "series.pvd", "particles.png"];
     is_checkpoint(name) || is_picture() || others.contains(&name) || numbered() == Some(true)
 }
 

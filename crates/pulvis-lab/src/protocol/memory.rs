@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 
 use pulvis_core::{MaterialIndex, Particle, Simulation};
 use pulvis_input::Problem;
-use pulvis_input::scenario::{Arrangement, ParticleGroup, Scenario};
+use pulvis_input::scenario::{Arrangement, ParticleGroup, Refusal, Scenario};
 use pulvis_math::{Vector3, elementary};
 
+use super::allow::refuse_unless_allowed;
 use super::error::PrepareError;
 use super::packed::{Density, packing};
 use super::resources::available_memory;
@@ -17,7 +18,7 @@ use super::setup::interactions;
 pub struct MemoryForecast {
     /// Number of particles.
     pub particles: usize,
-    /// Before the first step, with no contacts yet [byte].
+    /// Before the first step, with no contacts yet, and with the states for checkpoints [byte].
     pub start: u64,
     /// In a dense packing, twelve neighbours each [byte].
     pub packed: u64,
@@ -30,6 +31,15 @@ const FEW: usize = 200_000;
 
 /// Particles that stand for all in a trial.
 const SAMPLE: usize = 1000;
+
+/// Bytes of a particle in a state that is held for a checkpoint: columns of the particle and of its list, and three contacts
+/// with what they remember.
+const STATE: u64 = 300;
+
+/// Memory of the states that a run holds for checkpoints: the last one, and one on its way to the disk [byte].
+pub(super) fn held_states(scenario: &Scenario, particles: usize) -> u64 {
+    if scenario.output.checkpoints.is_some() { 2 * STATE * particles as u64 } else { 0 }
+}
 
 /// Estimates the memory that a scenario needs without making its particles; `None` where no trial can be
 /// made, because the engine refuses the contacts.
@@ -50,7 +60,7 @@ pub fn memory_forecast(scenario: &Scenario) -> Option<MemoryForecast> {
         let of_one = trials.map(|trial| trial.memory_size() as f64 / trial.particles().len() as f64);
         // The particles as they are made, once for the record and once for the engine.
         let most = of_one.max_by(f64::total_cmp)? + 2.0 * size_of::<Particle>() as f64;
-        Some((most * particles as f64 + sites) as u64)
+        Some((most * particles as f64 + sites) as u64 + held_states(scenario, particles))
     };
     let (start, packed) = (of_all(Density::Loose)?, of_all(Density::Dense)?);
     Some(MemoryForecast { particles, start, packed, available: available_memory() })
@@ -74,7 +84,7 @@ pub(super) fn refuse_too_many(scenario: &Scenario) -> Result<(), PrepareError> {
     let most = Simulation::MOST_PARTICLES;
     if count > most {
         let found = format!("there are {count} particles");
-        return Err(refused(scenario, found, format!("{most} or fewer, which the engine can number")));
+        return refused(scenario, None, found, format!("{most} or fewer, which the engine can number"));
     }
     match memory_forecast(scenario) {
         Some(MemoryForecast { start, available: Some(available), .. }) if start > available => {
@@ -83,7 +93,7 @@ pub(super) fn refuse_too_many(scenario: &Scenario) -> Result<(), PrepareError> {
                 gigabytes(start),
                 gigabytes(available)
             );
-            Err(refused(scenario, found, "particles that fit into the memory"))
+            refused(scenario, Some(Refusal::Memory), found, "particles that fit into the memory")
         }
         _ => Ok(()),
     }
@@ -94,7 +104,12 @@ fn gigabytes(bytes: u64) -> String {
 }
 
 /// Points at the number of the largest group.
-fn refused(scenario: &Scenario, found: String, expected: impl Into<String>) -> PrepareError {
+fn refused(
+    scenario: &Scenario,
+    refusal: Option<Refusal>,
+    found: String,
+    expected: impl Into<String>,
+) -> Result<(), PrepareError> {
     let groups = scenario.particles.iter().enumerate();
     let place = groups.max_by_key(|(_, group)| group.count).map_or(0, |(place, _)| place);
     let paths = [
@@ -104,7 +119,11 @@ fn refused(scenario: &Scenario, found: String, expected: impl Into<String>) -> P
     ];
     let paths = paths.each_ref().map(String::as_str);
     let help = "take fewer particles, or a machine with more memory";
-    scenario.mistake(&paths, Problem::rule(found, expected), help).into()
+    let problem = Problem::rule(found, expected);
+    match refusal {
+        Some(refusal) => refuse_unless_allowed(scenario, refusal, &paths, problem, help),
+        None => Err(scenario.mistake(&paths, problem, help).into()),
+    }
 }
 
 /// Particles of all groups in proportion to their numbers, of the middle radius of each.

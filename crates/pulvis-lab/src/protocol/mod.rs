@@ -3,15 +3,19 @@
 //! [`prepare`] turns a scenario into a simulation and refuses what only its particles can tell;
 //! [`preflight`] says what a run will be like; [`run`] does it and writes its files; [`resume`] goes on with an interrupted one.
 
+mod allow;
 mod check;
 mod checkpoint;
 mod clusters;
+mod damping;
 mod disk;
 mod error;
+mod explain;
 mod feasible;
 mod folder;
 mod fracture;
 mod frame;
+mod kept_rows;
 mod lock;
 mod measure;
 mod memory;
@@ -35,6 +39,7 @@ pub use check::{ContactForecast, Preflight, StageForecast, Sticking, preflight};
 pub use checkpoint::{FindError, checkpoint_files, has_ended};
 pub use disk::DiskForecast;
 pub use error::{PrepareError, RunError};
+pub use explain::{Explanation, explain};
 pub(crate) use folder::RECORD;
 pub use measure::{Measure, column_names};
 pub use memory::{MemoryForecast, memory_forecast};

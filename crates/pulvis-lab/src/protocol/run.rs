@@ -5,11 +5,14 @@ use std::sync::atomic::AtomicBool;
 
 use pulvis_core::{InstructionSet, Simulation};
 use pulvis_input::scenario::Scenario;
-use pulvis_io::checkpoint::write_text;
+use pulvis_io::checkpoint::{CheckpointError, peek_header, write_text};
 
+use super::check::stages;
 use super::checkpoint::{Found, ResultRecord, checkpoint_files, find};
+use super::disk::refuse_full_disk;
 use super::error::{PrepareError, RunError};
 use super::folder::{LIST, OutputFolder, RECORD};
+use super::measure::Measure;
 use super::setup::prepare;
 use super::stage::Ending;
 use super::under_way::Run;
@@ -148,6 +151,9 @@ pub fn run(
         (options.warn)(&warning);
     }
     let folder = options.folder.clone().unwrap_or_else(|| scenario.output.folder.clone());
+    let columns = Measure::new(scenario, &prepared.simulation).columns().len();
+    let (particles, stages) = (prepared.particles.len(), stages(scenario, &prepared));
+    refuse_full_disk(scenario, &folder, particles, columns, &stages)?;
     let mut output = OutputFolder::open(&folder, options.force)?;
     let resolved = scenario.to_resolved_toml(&options.version);
     write_text(&output.file(RECORD)?, &resolved)?;
@@ -167,7 +173,11 @@ pub fn resume(
     watch: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<RunSummary, RunError> {
     let parent = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let folder = if path.is_file() { parent } else { path };
+    let is_file = path.is_file();
+    if is_file && matches!(peek_header(path), Err(CheckpointError::Foreign)) {
+        return Err(PrepareError::NothingToResume { folder: path.to_owned() }.into());
+    }
+    let folder = if is_file { parent } else { path };
     let mut output = OutputFolder::reopen(folder)?;
     let found = find(path).map_err(PrepareError::from)?;
     let record = folder.join(RECORD);

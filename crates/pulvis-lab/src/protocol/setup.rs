@@ -2,14 +2,16 @@
 
 use pulvis_core::walls::{Extent, FaceArea, Wall};
 use pulvis_core::{
-    Background, ContactPartner, Domain, Interactions, Limits, MaterialIndex, MotionKind, Particle, Setup,
+    Background, ContactPartner, Domain, Interactions, MaterialIndex, MotionKind, Particle, Setup,
     ShortestMotion, Simulation, shortest_motion,
 };
-use pulvis_input::scenario::{Contact, Scenario, Side, TimeStep, Wall as WallPlan, WallControl};
+use pulvis_input::scenario::{Contact, Refusal, Scenario, Side, TimeStep, Wall as WallPlan, WallControl};
 
 use pulvis_input::Problem;
 
+use super::allow::{limits, refuse_unless_allowed};
 use super::checkpoint::Ancestor;
+use super::damping::refuse_overdamped;
 use super::error::PrepareError;
 use super::feasible::check_feasible;
 use super::memory::refuse_too_many;
@@ -83,8 +85,9 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
     let refused = |error| refuse_setup(scenario, &error);
     let mut simulation = Simulation::with_columns(setup, columns(scenario)).map_err(refused)?;
     simulation.set_temperature(scenario.temperature.clone());
-    simulation.set_limits(Limits { energy_error: scenario.limits.energy_error, ..Limits::default() });
+    simulation.set_limits(limits(scenario));
     check_overlaps(scenario, &simulation)?;
+    refuse_overdamped(scenario, &particles)?;
     check_feasible(scenario, &particles, &walls, &stages)?;
     let origin =
         Origin { ancestors: Vec::new(), interactions: first.interactions.clone(), stage_ended: true };
@@ -147,7 +150,7 @@ fn time_step(
     stage: usize,
 ) -> Result<f64, PrepareError> {
     let duration = shortest.map_or(f64::INFINITY, |shortest| shortest.duration);
-    let (problem, help) = match plan {
+    let (step, problem, help) = match plan {
         // The engine refuses a step that is zero or infinite.
         TimeStep::Auto { steps_per_contact_time } => return Ok(duration / steps_per_contact_time),
         TimeStep::Fixed(step) if step * TimeStep::LEAST_STEPS <= duration => return Ok(step),
@@ -166,14 +169,15 @@ fn time_step(
                 Some(MotionKind::Drag | MotionKind::RotationalDrag) => "take \"auto\", or less drag",
                 _ => "take \"auto\", or soften the contact",
             };
-            (Problem::rule(found, format!("at most {:.4e} s", duration / least)), help)
+            (step, Problem::rule(found, format!("at most {:.4e} s", duration / least)), help)
         }
     };
     // A stage without a step of its own goes on with the one before.
     let own = (0..=stage).rev().map(|stage| format!("stages[{stage}].time.step"));
     let paths: Vec<String> = own.chain(["time.step".to_owned()]).collect();
     let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
-    Err(scenario.mistake(&paths, problem, help).into())
+    refuse_unless_allowed(scenario, Refusal::TimeStep, &paths, problem, help)?;
+    Ok(step)
 }
 
 /// Whose motion it is, in words: the materials of a contact, a wall, or the drag.
@@ -276,14 +280,19 @@ pub(super) fn group_path(scenario: &Scenario, id: usize) -> String {
     "particles".to_owned()
 }
 
-/// Refuses overlaps of more than a tenth of a radius at the start: the elastic energy in them would
+/// Refuses overlaps of more than a tenth of the smaller radius at the start: the elastic energy in them would
 /// blow the sample up.
 fn check_overlaps(scenario: &Scenario, simulation: &Simulation) -> Result<(), PrepareError> {
     let particles = simulation.particles();
     let rows = particles.rows_by_id();
+    let radius = |id: u32| particles.radii()[rows[id as usize]];
     let mut deepest: Option<(f64, usize, String)> = None;
     simulation.for_each_contact(&mut |contact| {
-        let relative = contact.overlap / particles.radii()[rows[contact.first as usize]];
+        let smaller = match contact.second {
+            ContactPartner::Particle(other) => radius(contact.first).min(radius(other)),
+            ContactPartner::Wall(_) => radius(contact.first),
+        };
+        let relative = contact.overlap / smaller;
         if relative > 0.1 && deepest.as_ref().is_none_or(|(depth, ..)| relative > *depth) {
             let partner = match contact.second {
                 ContactPartner::Particle(id) => format!("particle {id}"),
@@ -293,9 +302,12 @@ fn check_overlaps(scenario: &Scenario, simulation: &Simulation) -> Result<(), Pr
         }
     });
     let Some((relative, id, partner)) = deepest else { return Ok(()) };
-    let found =
-        format!("particle {id} overlaps {partner} by {:.0} % of its radius at the start", 100.0 * relative);
+    let found = format!(
+        "particle {id} overlaps {partner} by {:.0} % of the smaller radius at the start",
+        100.0 * relative
+    );
     let problem = Problem::rule(found, "at most 10 %");
     let path = format!("{}.arrangement", group_path(scenario, id));
-    Err(scenario.mistake(&[&path], problem, "enlarge the spacing or the region").into())
+    let help = "enlarge the spacing or the region";
+    refuse_unless_allowed(scenario, Refusal::Overlap, &[&path], problem, help)
 }

@@ -1,13 +1,15 @@
 //! Simulations that start from a checkpoint: of the same run, or of another one.
 
 use pulvis_core::walls::Wall;
-use pulvis_core::{Interactions, Limits, Particle, Simulation, State};
+use pulvis_core::{Interactions, Particle, Simulation, State};
 use pulvis_input::scenario::{Scenario, Stage, StartFrom, WallControl};
 use pulvis_input::{Document, Problem, Replacement};
 use pulvis_io::vtk::Frame;
 use std::path::Path;
 
+use super::allow::limits;
 use super::checkpoint::{Ancestor, Checkpoint, FindError, Found, RunRecord, find, of_run};
+use super::damping::refuse_overdamped;
 use super::error::PrepareError;
 use super::feasible::{check_feasible, start_stage};
 use super::frame::frame_of;
@@ -50,12 +52,8 @@ pub(super) fn resumed(scenario: &Scenario, found: Found) -> Result<Resumed, Prep
     let models = plans[stage].interactions.clone();
     let mut simulation =
         Simulation::import_state(models, walls, &state).map_err(|error| misfit(error.to_string()))?;
-    set_limits(&mut simulation, scenario);
+    simulation.set_limits(limits(scenario));
     Ok(Resumed { simulation, plans, ancestors, record, results })
-}
-
-fn set_limits(simulation: &mut Simulation, scenario: &Scenario) {
-    simulation.set_limits(Limits { energy_error: scenario.limits.energy_error, ..Limits::default() });
 }
 
 /// What stages switch to, with the time steps that they had before the interruption.
@@ -141,7 +139,8 @@ pub fn load_scenario(path: &Path, set: &[(String, Replacement)]) -> Result<Scena
         let Found { checkpoint, .. } = of_run(&start).map_err(refused)?;
         let (parent, stage) = parent(&checkpoint)?;
         let base = Document::from_str("the run", &parent.as_in_stage(stage).to_resolved_toml(""))?;
-        document = document.with_missing_from(&base, &["title", "start_from", "stages", "output"], &place);
+        document =
+            document.with_missing_from(&base, &["title", "start_from", "allow", "stages", "output"], &place);
     }
     Ok(Scenario::from_document(&document.with_overrides(set)?, Some(path))?)
 }
@@ -177,7 +176,8 @@ pub(super) fn branch(scenario: &Scenario, start: &StartFrom) -> Result<Prepared,
     let mut simulation =
         Simulation::import_state(models.clone(), walls, &state).map_err(|error| unfit(error.to_string()))?;
     simulation.set_temperature(scenario.temperature.clone());
-    set_limits(&mut simulation, scenario);
+    simulation.set_limits(limits(scenario));
+    refuse_overdamped(scenario, &particles)?;
     check_feasible(scenario, &particles, simulation.walls(), &stages)?;
     let origin = Origin { ancestors, interactions: models, stage_ended };
     Ok(Prepared { simulation, stages, particles, origin })

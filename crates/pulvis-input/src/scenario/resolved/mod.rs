@@ -34,6 +34,9 @@ impl Scenario {
             writer.key("start_from", start_from(start));
         }
         writer.key("seed", self.seed.to_string());
+        if !self.allow.is_empty() {
+            writer.key("allow", list(self.allow.iter().map(|refusal| text(refusal.name()))));
+        }
         writer.key("gravity", gravity(self.background.gravity));
         if let Some(domain) = &self.domain {
             writer.table("domain");
@@ -65,6 +68,8 @@ impl Scenario {
         write_time(&mut writer, self.time);
         writer.table("limits");
         writer.key("energy_error", quantity(self.limits.energy_error, Dimension::NONE));
+        writer.key("overlap", quantity(self.limits.overlap, Dimension::NONE));
+        writer.key("speed", quantity(self.limits.speed, Dimension::VELOCITY));
         write_output(&mut writer, &self.output, &self.stages);
         self.write_stages(&mut writer);
         writer.finish()

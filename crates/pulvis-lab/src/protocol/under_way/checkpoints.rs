@@ -6,10 +6,11 @@ use std::time::Instant;
 use pulvis_input::scenario::Scenario;
 use pulvis_io::table::TimeSeriesWriter;
 
-use super::{Run, TIME_SERIES, frame_interval};
+use super::{RELATIVE_ERROR, Run, TIME_SERIES, frame_interval};
 use crate::protocol::checkpoint::{Checkpoint, Found, Keeper, Purpose, RunRecord};
 use crate::protocol::error::RunError;
 use crate::protocol::folder::{LIST, OutputFolder};
+use crate::protocol::kept_rows::KeptRows;
 use crate::protocol::measure::Measure;
 use crate::protocol::pace::Due;
 use crate::protocol::run::{PictureOptions, StageResult, drop_later};
@@ -33,7 +34,9 @@ impl<'a> Run<'a> {
         let mut measure = Measure::new(scenario, &simulation);
         measure.resume(record.reference);
         let series = output.path().join(TIME_SERIES);
-        let (writer, rows) = TimeSeriesWriter::resume(&series, measure.columns(), record.series())?;
+        let (writer, written) = TimeSeriesWriter::resume(&series, measure.columns(), record.series())?;
+        let mut rows = KeptRows::new(measure.column(RELATIVE_ERROR).unwrap_or(0));
+        written.into_iter().for_each(|row| rows.push(row));
         // All that can be refused has been: from here on, files are cut back.
         drop_later(&file)?;
         output.cut_back(&record.files)?;

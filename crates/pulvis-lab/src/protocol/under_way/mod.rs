@@ -9,12 +9,14 @@ use std::time::Instant;
 use pulvis_core::walls::WallMotion;
 use pulvis_core::{Interactions, Simulation, StepError};
 use pulvis_input::scenario::{Scenario, Snapshots as SnapshotPlan, WallControl};
+use pulvis_io::checkpoint::write_text;
 use pulvis_io::table::TimeSeriesWriter;
-use pulvis_math::max_or_nan;
 
 use super::checkpoint::{Ancestor, Keeper, LATEST, PREVIOUS, stage_file};
 use super::error::RunError;
+use super::explain::{ALARM, AlarmReport, likely_cause};
 use super::folder::OutputFolder;
+use super::kept_rows::KeptRows;
 use super::measure::Measure;
 use super::pace::{Due, PACE, Pace};
 use super::report::{self, Series};
@@ -23,7 +25,10 @@ use super::setup::{Prepared, StagePlan};
 use super::snapshots::Snapshots;
 use super::stage::{Ending, StageWatch};
 
-const TIME_SERIES: &str = "timeseries.csv";
+/// The column of the relative closing error.
+const RELATIVE_ERROR: &str = "relative_error";
+
+pub(super) const TIME_SERIES: &str = "timeseries.csv";
 
 /// A run under way.
 pub(super) struct Run<'a> {
@@ -44,7 +49,7 @@ pub(super) struct Run<'a> {
     walls_arrive: bool,
     measure: Measure,
     writer: TimeSeriesWriter,
-    rows: Vec<Vec<f64>>,
+    rows: KeptRows,
     snapshots: Option<Snapshots>,
     output: OutputFolder,
     /// How many of the files of the run are on the disk for certain.
@@ -85,9 +90,9 @@ impl<'a> Run<'a> {
             plans,
             results: Vec::new(),
             watch: None,
+            rows: KeptRows::new(measure.column(RELATIVE_ERROR).unwrap_or(0)),
             measure,
             writer,
-            rows: Vec::new(),
             snapshots: match scenario.output.snapshots {
                 SnapshotPlan::Never => None,
                 SnapshotPlan::StageEnds | SnapshotPlan::Every(_) => Some(Snapshots::create(output.path())?),
@@ -123,7 +128,9 @@ impl<'a> Run<'a> {
                 let step = self.keeper.rescue();
                 if let RunError::Step { saved, .. } = &mut error {
                     *saved = step;
-                    self.salvage();
+                }
+                if let RunError::Step { source, .. } = &error {
+                    self.salvage(source, &error);
                 }
                 Err(error)
             }
@@ -253,8 +260,9 @@ impl<'a> Run<'a> {
     }
 
     fn stopped(&self, stage: usize, source: StepError) -> RunError {
+        let cause = likely_cause(&self.simulation, &source.alarm, self.steps_before);
         let (stage, folder) = (self.scenario.stages[stage].name.clone(), self.output.path().to_path_buf());
-        RunError::Step { stage, source: Box::new(source), folder, saved: None }
+        RunError::Step { stage, source: Box::new(source), cause, folder, saved: None }
     }
 
     fn frame(&mut self) -> Result<(), RunError> {
@@ -290,7 +298,9 @@ impl<'a> Run<'a> {
 
     /// Completes the files of a run that has failed, and shows the state in which it did, as far as that is possible:
     /// what failed is the error that counts.
-    fn salvage(&mut self) {
+    fn salvage(&mut self, alarm: &StepError, error: &RunError) {
+        let report = AlarmReport::new(&self.simulation, alarm, &error.to_string()).to_text();
+        let _ = self.output.file(ALARM).map(|file| write_text(&file, &report));
         let _ = self.frame();
         let _ = self.writer.flush();
         let _ = self.draw();
@@ -300,15 +310,13 @@ impl<'a> Run<'a> {
         if !self.scenario.output.plots {
             return Ok(Vec::new());
         }
-        let series = Series { measure: &self.measure, rows: &self.rows };
+        let series = Series { measure: &self.measure, rows: self.rows.rows() };
         report::draw(self.scenario, &self.simulation, &series, self.pictures, &mut self.output)
     }
 
     fn finish(&mut self, interrupted: Option<StageResult>) -> Result<RunSummary, RunError> {
         self.writer.flush()?;
-        let error_column = self.measure.column("relative_error").unwrap_or(0);
-        let errors = self.rows.iter().map(|row| row[error_column].abs());
-        let energy_error_max = errors.fold(0.0, max_or_nan);
+        let energy_error_max = self.rows.largest_error();
         let pictures = self.draw()?;
         if interrupted.is_none() {
             self.end_checkpoint()?;
