@@ -10,7 +10,7 @@ use pulvis_input::probe::ProbeScenario;
 use pulvis_input::scenario::{Arrangement, Scenario};
 use pulvis_input::{Document, InputErrors};
 use pulvis_io::checkpoint;
-use pulvis_lab::protocol::{self, RunOptions, explain, prepare};
+use pulvis_lab::protocol::{self, PictureOptions, RunOptions, explain, prepare};
 
 use super::mutate::{Dice, mutated, mutated_bytes};
 
@@ -250,6 +250,7 @@ fn checkpoint_of_a_run(folder: &Path) -> (String, Vec<u8>) {
         threads: Some(1),
         instructions: None,
         version: "fuzz".to_owned(),
+        pictures: PictureOptions::default(),
         warn: |_| {},
     };
     protocol::run(&scenario, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();
