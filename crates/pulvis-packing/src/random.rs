@@ -85,6 +85,9 @@ fn draw(region: &Cuboid, domain: &Domain, radius: f64, random: &mut Random) -> O
     Some(centre)
 }
 
+/// Cells on either side of the origin that have numbers.
+const MOST_CELLS: f64 = 1e18;
+
 /// Spheres found by the cell that their centre lies in.
 struct Occupied {
     width: f64,
@@ -98,7 +101,8 @@ impl Occupied {
     }
 
     fn cell(&self, position: Vector3) -> [i64; 3] {
-        [0, 1, 2].map(|axis| (position[axis] / self.width).floor() as i64)
+        // Far beyond all digits of a position; a neighbour of the last cell still has a number.
+        [0, 1, 2].map(|axis| (position[axis] / self.width).floor().clamp(-MOST_CELLS, MOST_CELLS) as i64)
     }
 
     fn add(&mut self, centre: Vector3, radius: f64) {
@@ -167,5 +171,16 @@ mod tests {
         let error = random_positions(&radii, &unit_cube(), &Domain::unbounded(), &[], &mut random_stream(3));
         let error = error.unwrap_err();
         assert!(error.placed < 200 && error.solid_fraction > 0.8);
+    }
+
+    #[test]
+    fn regions_that_lie_beyond_all_numbers_of_cells_have_room_or_none_but_break_nothing() {
+        for far in [1e30, 1e300] {
+            let place = Vector3::new(far, -far, far);
+            let region = Cuboid { lower: place, upper: place * 2.0 };
+            let placed =
+                random_positions(&[1.0, 2.0], &region, &Domain::unbounded(), &[], &mut random_stream(1));
+            assert!(placed.map_or(true, |places| places.len() == 2));
+        }
     }
 }

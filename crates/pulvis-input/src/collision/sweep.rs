@@ -6,7 +6,7 @@ use crate::comparison::LabelledContact;
 use crate::contact::{NamedContact, NamedLaw, entries};
 use crate::context::Reported;
 use crate::list::List;
-use crate::problem::Problem;
+use crate::problem::{LONGEST_VALUE, Problem, shortened};
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::{Integer, Name, Text};
@@ -255,7 +255,7 @@ fn unknown(table: &TableReader<'_>, name: &str, contact: &NamedContact) -> Repor
     table.refuse_with_help(
         "variable",
         Problem::UnknownChoice {
-            found: name.to_owned(),
+            found: shortened(name, LONGEST_VALUE),
             choices: vec![
                 "velocity".to_owned(),
                 "chi".to_owned(),

@@ -232,7 +232,9 @@ fn judged(read: Result<(), InputErrors>) -> Ending {
         let headline = error.headline();
         // A file that is missing or empty has no lines.
         let has_place = error.place.is_some()
-            || ["the file ", "cannot be read: "].iter().any(|start| headline.starts_with(start))
+            || ["the file ", "cannot be read: ", "is a folder; "]
+                .iter()
+                .any(|start| headline.starts_with(start))
             || headline.starts_with("there is ");
         assert!(!error.file.is_empty() && has_place && headline.len() < 2000, "{headline}");
     }
