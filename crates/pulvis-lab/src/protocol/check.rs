@@ -3,13 +3,12 @@
 use std::path::Path;
 use std::time::Instant;
 
+use pulvis_contact::ContactModel;
 use pulvis_contact::theory::{CriticalVelocities, LudingPair};
-use pulvis_contact::{ContactModel, Pair};
 use pulvis_core::Particle;
 use pulvis_input::collision::{Bodies, Sphere, luding_pair};
 use pulvis_input::scenario::{Contact, Scenario, Stage};
 use pulvis_input::{BodyQuantity, NamedLaw, Surroundings};
-use pulvis_math::elementary;
 
 use super::damping::damping_ratios;
 use super::disk::{DiskForecast, disk_forecast, refuse_full_disk};
@@ -20,6 +19,7 @@ use super::memory::{held_states, memory_forecast};
 use super::setup::{Prepared, describe_motion, prepare};
 use super::stage::LEAST_STEPS_TO_REST;
 use super::timing::stage_costs;
+use super::typical::{Body, TypicalBodies};
 use super::warnings::warnings;
 use crate::collision::sticking_ranges;
 
@@ -87,7 +87,7 @@ pub enum Sticking {
     Computed(Vec<[f64; 2]>),
     /// Particles of the same material differ in this quantity, which a law reads.
     Varied(&'static str),
-    /// Not known: the pair is overdamped, or there are too many contacts to try.
+    /// Not known: the pair is overdamped, the wall is no plane, or there are too many contacts to try.
     Unknown,
 }
 
@@ -218,11 +218,11 @@ fn forecasts(scenario: &Scenario, particles: &[Particle]) -> Vec<ContactForecast
         .contacts
         .iter()
         .filter_map(|contact| {
-            let (body, partner) = typical_bodies(particles, contact.materials)?;
+            let bodies = TypicalBodies::of(scenario, particles, contact.materials)?;
             let names = contact.materials.map(|material| scenario.materials[material].name.as_str());
             let searches = began.elapsed().as_secs_f64() < SEARCH;
-            let around = surroundings(scenario, contact, partner.is_none());
-            let forecast = forecast(names.join("-"), &contact.model, body, partner, (searches, around));
+            let around = surroundings(scenario, contact, bodies.second().is_none());
+            let forecast = forecast(names.join("-"), &contact.model, &bodies, (searches, around));
             Some(ContactForecast { laws: contact.laws.clone(), ..forecast })
         })
         .collect()
@@ -250,61 +250,34 @@ fn surroundings(scenario: &Scenario, contact: &Contact, at_wall: bool) -> Result
     Ok(Surroundings { temperature: scenario.temperature.clone(), quantities })
 }
 
-/// Mass [kg] and radius [m] of a particle.
-type Body = (f64, f64);
-
-/// Two particles of the mean radii of two materials; the second one is a wall where it
-/// is `None`. `None` without particles of either.
-pub(super) fn typical_bodies(particles: &[Particle], materials: [usize; 2]) -> Option<(Body, Option<Body>)> {
-    match materials.map(|material| mean_body(particles, material)) {
-        [Some(one), other] => Some((one, other)),
-        [None, Some(other)] => Some((other, None)),
-        [None, None] => None,
-    }
-}
-
-/// Mass [kg] and radius [m] of a particle of the mean radius of a material.
-fn mean_body(particles: &[Particle], material: usize) -> Option<(f64, f64)> {
-    let of_material = || particles.iter().filter(|particle| usize::from(particle.material) == material);
-    let count = of_material().count();
-    let first = of_material().next()?;
-    let radius = of_material().map(|particle| particle.radius).sum::<f64>() / count as f64;
-    Some((first.mass * elementary::powi(radius / first.radius, 3), radius))
-}
-
 fn forecast(
     between: String,
     model: &ContactModel,
-    body: (f64, f64),
-    partner: Option<(f64, f64)>,
+    bodies: &TypicalBodies,
     (searches, around): (bool, Result<Surroundings, &'static str>),
 ) -> ContactForecast {
-    let pair = match partner {
-        Some(partner) => Pair::spheres(body.0, partner.0, body.1, partner.1),
-        None => Pair::wall(body.0, body.1),
-    };
-    let theory: Option<LudingPair> = luding_pair(model, &pair);
-    let damping = damping_ratios(model, body, partner).first().map_or(0.0, |(_, ratio)| *ratio);
+    let theory: Option<LudingPair> = luding_pair(model, &bodies.pair());
+    let damping = damping_ratios(model, bodies).first().map_or(0.0, |(_, ratio)| *ratio);
     let sticking = match &theory {
         Some(theory) if damping == 0.0 => Sticking::ClosedForm(theory.critical_velocities()),
-        // An overdamped pair creeps for longer than anybody wants to wait.
-        _ if damping >= 1.0 || !searches => Sticking::Unknown,
+        // An overdamped pair creeps for longer than anybody wants to wait; collisions know planes only.
+        _ if damping >= 1.0 || !searches || bodies.is_curved() => Sticking::Unknown,
         _ => match around {
             Err(quantity) => Sticking::Varied(quantity),
             Ok(around) => {
-                let sphere = |(mass, radius): (f64, f64)| Sphere { radius, mass };
-                let bodies = match partner {
-                    Some(partner) => Bodies::Pair([sphere(body), sphere(partner)]),
-                    None => Bodies::Wall(sphere(body)),
+                let sphere = |(mass, radius): Body| Sphere { radius, mass };
+                let colliding = match bodies.second() {
+                    Some(second) => Bodies::Pair([sphere(bodies.body), sphere(second)]),
+                    None => Bodies::Wall(sphere(bodies.body)),
                 };
-                sticking_ranges(bodies, model, &around).map_or(Sticking::Unknown, Sticking::Computed)
+                sticking_ranges(colliding, model, &around).map_or(Sticking::Unknown, Sticking::Computed)
             }
         },
     };
     ContactForecast {
         between,
         laws: Vec::new(),
-        contact_time: model.shortest_contact_time(body, partner),
+        contact_time: model.shortest_contact_time(bodies.body, bodies.partner),
         plastic_velocity: theory.as_ref().map(LudingPair::v_p0),
         sticking,
     }

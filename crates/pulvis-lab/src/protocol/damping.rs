@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-use pulvis_contact::{ContactModel, Pair};
+use pulvis_contact::ContactModel;
 use pulvis_core::Particle;
 use pulvis_input::Problem;
 use pulvis_input::scenario::{Contact, Refusal, Scenario};
 
 use super::allow::refuse_unless_allowed;
-use super::check::typical_bodies;
 use super::error::PrepareError;
+use super::typical::{Body, TypicalBodies};
 
 /// A dashpot beyond critical.
 pub(super) struct Overdamped {
@@ -64,9 +64,9 @@ pub(super) fn overdamped(scenario: &Scenario, particles: &[Particle]) -> Vec<Ove
                 continue;
             }
             seen.push(contact);
-            let Some((body, partner)) = typical_bodies(particles, contact.materials) else { continue };
+            let Some(bodies) = TypicalBodies::of(scenario, particles, contact.materials) else { continue };
             let names = contact.materials.map(|material| scenario.materials[material].name.as_str());
-            for (what, ratio) in damping_ratios(&contact.model, body, partner) {
+            for (what, ratio) in damping_ratios(&contact.model, &bodies) {
                 if ratio > 1.0 {
                     found.push(Overdamped { names: names.join("-"), stage: stage.name.clone(), what, ratio });
                 }
@@ -87,17 +87,9 @@ const BOND_MODES: [&str; 4] = [
     "of the bond against torsion",
 ];
 
-/// Damping ratios γ/(2 √(k m)) [1] of the contact of two bodies with mass [kg] and radius [m], the second one a
-/// wall where `None`, on the stiffest branch of each law.
-pub(super) fn damping_ratios(
-    model: &ContactModel,
-    body: (f64, f64),
-    partner: Option<(f64, f64)>,
-) -> Vec<(&'static str, f64)> {
-    let pair = match partner {
-        Some(partner) => Pair::spheres(body.0, partner.0, body.1, partner.1),
-        None => Pair::wall(body.0, body.1),
-    };
+/// Damping ratios γ/(2 √(k m)) [1] of the contact of two bodies, on the stiffest branch of each law.
+pub(super) fn damping_ratios(model: &ContactModel, bodies: &TypicalBodies) -> Vec<(&'static str, f64)> {
+    let (body, partner, pair) = (bodies.body, bodies.second(), bodies.pair());
     let laws = &model.laws;
     let stiffness = model.normal.max_stiffness(&pair, &laws.expected);
     let dashpot =
@@ -108,10 +100,10 @@ pub(super) fn damping_ratios(
     };
     let normal = ratio(dashpot, stiffness, pair.inverse_reduced_mass());
     // Solid spheres, I = 2/5 m a²: sliding moves mass and inertia, 1/m (1 + 5/2); rolling and torsion turn.
-    let inverse_mass = |(mass, _): (f64, f64)| 1.0 / mass;
+    let inverse_mass = |(mass, _): Body| 1.0 / mass;
     let masses = inverse_mass(body) + partner.map_or(0.0, inverse_mass);
     let lever = pair.harmonic_radius();
-    let turn = |(mass, radius): (f64, f64)| 2.5 * lever * lever / (mass * radius * radius);
+    let turn = |(mass, radius): Body| 2.5 * lever * lever / (mass * radius * radius);
     let turning = turn(body) + partner.map_or(0.0, turn);
     let mut ratios = vec![(NORMAL, normal)];
     if let Some(bond) = &laws.bond {

@@ -32,6 +32,7 @@ mod snapshots;
 mod stage;
 mod start;
 mod timing;
+mod typical;
 mod under_way;
 mod warnings;
 
