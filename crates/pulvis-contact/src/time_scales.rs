@@ -33,7 +33,7 @@ impl From<Option<(f64, f64)>> for Partner {
 
 impl Partner {
     /// The pair of a sphere with mass [kg] and radius [m] and this partner.
-    fn pair_with(self, (mass_i, radius_i): (f64, f64)) -> Pair {
+    pub fn pair_with(self, (mass_i, radius_i): (f64, f64)) -> Pair {
         match self {
             Self::Sphere { mass, radius } => Pair::spheres(mass_i, mass, radius_i, radius),
             Self::Wall { mean_curvature } => Pair::from_sums(1.0 / mass_i, 1.0 / radius_i + mean_curvature),

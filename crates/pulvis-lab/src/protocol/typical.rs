@@ -38,13 +38,7 @@ impl TypicalBodies {
 
     /// The constants of the pair.
     pub(super) fn pair(&self) -> Pair {
-        let (mass_i, radius_i) = self.body;
-        match self.partner {
-            Partner::Sphere { mass, radius } => Pair::spheres(mass_i, mass, radius_i, radius),
-            Partner::Wall { mean_curvature } => {
-                Pair::from_sums(1.0 / mass_i, 1.0 / radius_i + mean_curvature)
-            }
-        }
+        self.partner.pair_with(self.body)
     }
 
     /// The second particle, if it is one.

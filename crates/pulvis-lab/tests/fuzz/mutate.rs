@@ -1,30 +1,23 @@
 //! Changes of texts that keep most of their structure, so that what is wrong lies deep.
 
-/// SplitMix64: every case has numbers of its own, whichever cases came before.
-pub struct Dice(u64);
+use pulvis_testkit::Draw;
+
+/// Choices of one case: every case has its own, whichever cases came before.
+pub struct Dice(Draw);
 
 impl Dice {
     pub fn of_case(seed: u64, case: u64) -> Self {
-        let mut dice = Self(seed ^ case.wrapping_mul(0xd134_2543_de82_ef95));
-        dice.next();
-        dice
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut mixed = self.0;
-        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
+        // No slow run has as many cases.
+        Self(Draw::new(seed.wrapping_mul(1 << 32).wrapping_add(case)))
     }
 
     /// A number below `most`, which must not be zero.
     pub fn below(&mut self, most: usize) -> usize {
-        (self.next() % most as u64) as usize
+        (self.0.unit() * most as f64) as usize
     }
 
     pub fn pick<'a, T>(&mut self, items: &'a [T]) -> &'a T {
-        &items[self.below(items.len())]
+        self.0.one_of(items)
     }
 }
 
