@@ -94,6 +94,8 @@ pub struct Couple {
     pub gravity: Vector3,
     /// Energy that the contact stores [J].
     pub stored: f64,
+    /// The part of it that the spring of the normal law holds, which an attraction may have lent [J].
+    pub elastic_normal: f64,
     /// Energy that the contact has lost [J].
     pub lost: f64,
     /// Normal force of the last step, repulsion positive [N].
@@ -115,6 +117,7 @@ impl Couple {
             j,
             gravity: zero,
             stored: 0.0,
+            elastic_normal: 0.0,
             lost: 0.0,
             normal_force: 0.0,
             overlap: 0.0,
@@ -179,6 +182,7 @@ impl Couple {
         }
         let energies = answer.energies;
         self.stored = energies.stored();
+        self.elastic_normal = energies.elastic_normal;
         self.lost += energies.dissipated() + 0.5 * dt * (self.power + energies.viscous_power);
         self.power = energies.viscous_power;
         self.normal_force = answer.normal_force;

@@ -12,11 +12,12 @@ use pulvis_input::NamedLaw;
 use pulvis_input::scenario::Scenario;
 use pulvis_lab::protocol::{
     ContactForecast, Preflight, StageForecast, Sticking, load_scenario, memory_forecast, preflight,
+    size_in_words,
 };
 
 use super::allow::Allowed;
 use super::set::Settings;
-use super::words::{bytes, duration};
+use super::words::duration;
 use crate::failure::{Failure, print};
 
 /// With more particles, a check takes seconds: the memory is told at once.
@@ -66,14 +67,15 @@ fn tell_memory_of_many(scenario: &Scenario) {
     else {
         return;
     };
-    let available =
-        memory.available.map_or(String::new(), |available| format!("; {} are available", bytes(available)));
+    let available = memory
+        .available
+        .map_or(String::new(), |available| format!("; {} are available", size_in_words(available)));
     // Nobody is left to be told if the standard error stream is closed.
     let _ = writeln!(
         std::io::stderr(),
         "{count} particles need about {} at the start and {} in a dense packing{available}",
-        bytes(memory.start),
-        bytes(memory.packed)
+        size_in_words(memory.start),
+        size_in_words(memory.packed)
     );
 }
 
@@ -154,16 +156,16 @@ fn describe_output(text: &mut String, scenario: &Scenario, forecast: &Preflight)
     } else {
         ""
     };
-    let free = disk.free.map_or(String::new(), |free| format!("; {} are free", bytes(free)));
+    let free = disk.free.map_or(String::new(), |free| format!("; {} are free", size_in_words(free)));
     let _ = writeln!(
         text,
         "{:<17} {limit}{}: time series {}, {:.0} frames of {}, checkpoints {}{open}{free}",
         "",
-        bytes(disk.total() as u64),
-        bytes(disk.timeseries as u64),
+        size_in_words(disk.total() as u64),
+        size_in_words(disk.timeseries as u64),
         disk.frames,
-        bytes(disk.frame as u64),
-        bytes(disk.checkpoints as u64)
+        size_in_words(disk.frame as u64),
+        size_in_words(disk.checkpoints as u64)
     );
 }
 
@@ -173,7 +175,7 @@ fn describe_memory(text: &mut String, scenario: &Scenario, forecast: &Preflight)
     let _ = writeln!(
         text,
         "memory            {} for {} candidate contacts at the start{}, {:.0} bytes a particle",
-        bytes(start),
+        size_in_words(start),
         forecast.candidates,
         if scenario.output.checkpoints.is_some() { " and two states for checkpoints" } else { "" },
         of_a_particle(start)
@@ -182,12 +184,12 @@ fn describe_memory(text: &mut String, scenario: &Scenario, forecast: &Preflight)
     if let Some(packed) = forecast.packed_memory.filter(|&packed| packed > start) {
         let available = forecast
             .available_memory
-            .map_or(String::new(), |available| format!("; {} are available", bytes(available)));
+            .map_or(String::new(), |available| format!("; {} are available", size_in_words(available)));
         let _ = writeln!(
             text,
             "{:<17} {} with the contacts of a dense packing, 12 neighbours each: {:.0} bytes a particle{available}",
             "",
-            bytes(packed),
+            size_in_words(packed),
             of_a_particle(packed)
         );
     }

@@ -6,9 +6,8 @@ use std::process::ExitCode;
 
 use clap::Args;
 use pulvis_io::checkpoint::read_header;
-use pulvis_lab::protocol::checkpoint_files;
+use pulvis_lab::protocol::{checkpoint_files, size_in_words};
 
-use super::words::bytes;
 use crate::failure::{Failure, print};
 
 /// Says what checkpoints hold and whether they are whole.
@@ -47,6 +46,6 @@ fn describe(file: &Path) -> Result<String, Failure> {
     let size = std::fs::metadata(file).map_or(0, |data| data.len());
     let mut text = String::new();
     // Writing to a String cannot fail.
-    let _ = writeln!(text, "# {}: a whole checkpoint of {}\n{header}\n", file.display(), bytes(size));
+    let _ = writeln!(text, "# {}: a whole checkpoint of {}\n{header}\n", file.display(), size_in_words(size));
     Ok(text)
 }

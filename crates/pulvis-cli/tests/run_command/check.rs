@@ -203,7 +203,7 @@ fn more_particles_than_the_memory_holds_are_refused_before_any_is_made() {
         assert_eq!((output.status.code(), out(&output).as_str()), (Some(2), ""), "{}", error(&output));
         let text = error(&output);
         assert!(text.contains("30000000 particles need about "), "{text}");
-        assert!(text.contains(" GB of memory before the first step, and "), "{text}");
+        assert!(text.contains("B of memory before the first step, and "), "{text}");
         assert!(
             text.contains(" GB of memory are available; expected particles that fit into the memory"),
             "{text}"

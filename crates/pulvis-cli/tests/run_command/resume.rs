@@ -1,4 +1,4 @@
-//! Runs that are stopped, killed or run out of room, and go on to the same files.
+//! Runs that are stopped or killed, and go on to the same files.
 #![cfg(unix)]
 
 use crate::place::*;
@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 /// Grains that fall, are pressed by a servo wall and shaken: memory, attraction, a switch of laws, stop rules, and some of
 /// everything that a run writes.
-const SHAKEN: &str = r#"title = "Pressed \"and\" shaken"
+pub const SHAKEN: &str = r#"title = "Pressed \"and\" shaken"
 gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
 seed = 3
 
@@ -60,14 +60,14 @@ dimensionless = { length = "2 mm", stiffness = "500 N/m", reference_stage = "pre
 "#;
 
 /// All files of a run but the lock.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let files = names.filter(|name| name != ".pulvis-lock");
     files.map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
 }
 
 /// Every file that the one run has left, the other has left too, byte by byte.
-fn assert_same_files(found: &Path, expected: &Path) {
+pub fn assert_same_files(found: &Path, expected: &Path) {
     let (found, expected) = (files(found), files(expected));
     let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
     assert_eq!(names(&found), names(&expected));
@@ -77,7 +77,7 @@ fn assert_same_files(found: &Path, expected: &Path) {
 }
 
 /// A folder with [`SHAKEN`], and the run that nothing interrupts in `whole`; answers with its duration.
-fn shaken(name: &str, changes: &[(&str, &str)]) -> (Place, Duration) {
+pub fn shaken(name: &str, changes: &[(&str, &str)]) -> (Place, Duration) {
     let place = Place::with(name, SHAKEN, changes);
     let began = Instant::now();
     let output = place.pulvis(&["run", "s.toml", "--output", "whole", "--quiet"]);
@@ -85,11 +85,11 @@ fn shaken(name: &str, changes: &[(&str, &str)]) -> (Place, Duration) {
     (place, began.elapsed())
 }
 
-fn resume(place: &Place, folder: &str, further: &[&str]) -> Output {
+pub fn resume(place: &Place, folder: &str, further: &[&str]) -> Output {
     place.pulvis(&[&["run", "--resume", folder, "--quiet"], further].concat())
 }
 
-fn is_complete(output: &Output) -> bool {
+pub fn is_complete(output: &Output) -> bool {
     output.status.code() == Some(0)
 }
 
@@ -356,36 +356,4 @@ fn an_alarm_leaves_a_checkpoint_of_a_sound_state() {
     for name in ["timeseries.csv", "series.pvd", "energies.png", "run.files"] {
         assert!(before[name] == after[name], "{name} has other bytes");
     }
-}
-
-/// The command in a shell that lets no file grow beyond so many blocks of 512 bytes, as a full disk does.
-fn in_small_room(place: &Place, blocks: u32, arguments: &str) -> Output {
-    let script =
-        format!("trap '' XFSZ; ulimit -f {blocks}; exec {} {arguments}", env!("CARGO_BIN_EXE_pulvis"));
-    Command::new("sh").args(["-c", &script]).current_dir(&place.0).output().unwrap()
-}
-
-#[test]
-fn without_room_a_run_ends_with_an_error_and_goes_on_when_there_is_room_again() {
-    let (place, _) = shaken("small_room", &[]);
-    let series = fs::metadata(place.0.join("whole/timeseries.csv")).unwrap().len();
-    let blocks = u32::try_from(series / 512 / 2).unwrap();
-    let output = in_small_room(&place, blocks, "run s.toml --output out --quiet");
-    let message = error(&output);
-    assert_eq!(output.status.code(), Some(1), "{message}");
-    assert!(message.starts_with("error: cannot write out/timeseries.csv: "), "{message}");
-    let output = resume(&place, "out", &[]);
-    assert!(is_complete(&output), "{}", error(&output));
-    assert_same_files(&place.0.join("out"), &place.0.join("whole"));
-}
-
-#[test]
-fn a_folder_that_vanishes_ends_a_run_with_an_error() {
-    let place = Place::with("vanished", SHAKEN, &[("time = \"30 ms\" }\n\n", "time = \"10000 s\" }\n\n")]);
-    let run = spawn(place.command(&["run", "s.toml", "--output", "out", "--quiet", "--allow", "disk"]));
-    wait_for_rows(&place.0.join("out/timeseries.csv"));
-    fs::rename(place.0.join("out"), place.0.join("elsewhere")).unwrap();
-    let output = finish(run);
-    assert_eq!(output.status.code(), Some(1), "{}", error(&output));
-    assert!(error(&output).contains("\nerror: cannot write out/"), "{}", error(&output));
 }

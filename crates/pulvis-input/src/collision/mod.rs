@@ -57,7 +57,7 @@ use pulvis_contact::bond::Form;
 use pulvis_math::{Dimension, elementary};
 use speed::read_speed;
 use std::path::Path;
-use sweep::{Sweep, read_sweep};
+use sweep::{Sweep, read_sweep, refuse_too_many};
 
 /// How a collision is integrated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -241,6 +241,8 @@ fn walk(mut root: TableReader<'_>, sweeping: bool) -> Result<CollisionScenario, 
         let found = format!("`{}` is the first variable too", family.path);
         return Err(table.refuse("family", Problem::rule(found, "another one")));
     }
+    let second = family.as_ref().map_or(1, |family| family.as_ref().map_or(1, |family| family.values.len()));
+    refuse_too_many(&table, &sweep, contacts.len().saturating_mul(second))?;
     let mut cases = Ok(Vec::new());
     let mut time_after_sticking = time_after_sticking;
     for (contact_number, LabelledContact { contact, .. }) in contacts.iter().enumerate() {

@@ -14,8 +14,8 @@ use crate::similar::similar;
 use pulvis_contact::catalogue::{Kind, LawEntry, Parameter, Value};
 use pulvis_math::{Dimension, elementary};
 
-/// More points than any curve needs; a slip of the pen should not fill the memory.
-const MOST_POINTS: i64 = 1_000_000;
+/// More collisions than any picture needs; a slip of the pen should not fill the memory (a collision takes 1 to 2 kB).
+const MOST_COLLISIONS: usize = 100_000;
 
 /// The key of the engine's resolution, which can be swept beside law parameters.
 pub(super) const STEPS: &str = "collision.steps_per_contact";
@@ -83,6 +83,16 @@ impl Sweep {
     pub(super) fn single() -> Self {
         Self { variable: SweptVariable::Single, logarithmic: false, points: Vec::new() }
     }
+}
+
+/// Refuses a sweep that, once for each of so many `curves` (contacts, or values of a second variable), is too long.
+pub(super) fn refuse_too_many(table: &TableReader<'_>, sweep: &Sweep, curves: usize) -> Result<(), Reported> {
+    let points = sweep.points.len();
+    if points.saturating_mul(curves) <= MOST_COLLISIONS {
+        return Ok(());
+    }
+    let found = format!("{points} collisions for each of {curves} curves");
+    Err(table.refuse("sweep", Problem::rule(found, format!("at most {MOST_COLLISIONS} in all"))))
 }
 
 /// What can be swept: how its values are written, and how the law judges them.
@@ -161,7 +171,7 @@ fn read_range(
 ) -> Result<Vec<f64>, Reported> {
     let from = table.required("from", rule);
     let to = table.required("to", rule);
-    let points = table.required("points", Integer::between(2, MOST_POINTS));
+    let points = table.required("points", Integer::between(2, MOST_COLLISIONS as i64));
     let spacing = table.or("spacing", Name(&["linear", "log"]), "linear");
     let (from, to, points) = (from?, to?, points?);
     *logarithmic = spacing? == "log";
@@ -176,7 +186,7 @@ fn read_range(
     let between = |share: f64| {
         if *logarithmic { from * elementary::powf(to / from, share) } else { from + (to - from) * share }
     };
-    #[allow(clippy::cast_precision_loss)] // at most a million
+    #[allow(clippy::cast_precision_loss)] // few
     let inner = (1..points - 1).map(|number| between(number as f64 / (points - 1) as f64));
     // The ends exactly as written.
     Ok(std::iter::once(from).chain(inner).chain(std::iter::once(to)).collect())

@@ -8,7 +8,7 @@ use pulvis_input::scenario::{Interval, Refusal, Scenario, Snapshots};
 use super::allow::refuse_unless_allowed;
 use super::check::StageForecast;
 use super::error::PrepareError;
-use super::resources::free_disk_space;
+use super::resources::{free_disk_space, size_in_words};
 
 /// Bytes of a number in the time series, on the average.
 const NUMBER: f64 = 18.0;
@@ -94,9 +94,9 @@ pub(super) fn refuse_full_disk(
     let least = disk_forecast(scenario, folder, particles, columns, &shortest);
     let Some(free) = least.free.filter(|free| least.total() > *free as f64) else { return Ok(()) };
     let found = format!(
-        "the files take {:.1} GB at least, and {:.1} GB are free at {}",
-        least.total() / 1e9,
-        free as f64 / 1e9,
+        "the files take {} at least, and {} are free at {}",
+        size_in_words(least.total() as u64),
+        size_in_words(free),
         folder.display()
     );
     let paths = match least.snapshots > least.timeseries {

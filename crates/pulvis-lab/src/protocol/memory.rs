@@ -10,7 +10,7 @@ use pulvis_math::{Vector3, elementary};
 use super::allow::refuse_unless_allowed;
 use super::error::PrepareError;
 use super::packed::{Density, packing};
-use super::resources::available_memory;
+use super::resources::{available_memory, size_in_words};
 use super::setup::interactions;
 
 /// Memory that a run needs, by trials with few particles, and what there is.
@@ -89,18 +89,14 @@ pub(super) fn refuse_too_many(scenario: &Scenario) -> Result<(), PrepareError> {
     match memory_forecast(scenario) {
         Some(MemoryForecast { start, available: Some(available), .. }) if start > available => {
             let found = format!(
-                "{count} particles need about {} before the first step, and {} are available",
-                gigabytes(start),
-                gigabytes(available)
+                "{count} particles need about {} of memory before the first step, and {} of memory are available",
+                size_in_words(start),
+                size_in_words(available)
             );
             refused(scenario, Some(Refusal::Memory), found, "particles that fit into the memory")
         }
         _ => Ok(()),
     }
-}
-
-fn gigabytes(bytes: u64) -> String {
-    format!("{:.1} GB of memory", bytes as f64 / 1e9)
 }
 
 /// Points at the number of the largest group.

@@ -44,6 +44,7 @@ pub use explain::{Explanation, explain};
 pub(crate) use folder::RECORD;
 pub use measure::{Measure, column_names};
 pub use memory::{MemoryForecast, memory_forecast};
+pub use resources::size_in_words;
 pub use run::{PictureOptions, Progress, RunOptions, RunSummary, StageResult, resume, run};
 pub use setup::{Prepared, StagePlan, prepare};
 pub use stage::Ending;

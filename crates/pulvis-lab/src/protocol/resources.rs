@@ -3,6 +3,17 @@
 use std::fs;
 use std::path::Path;
 
+/// A size [byte] in memory or on a disk, in words.
+pub fn size_in_words(size: u64) -> String {
+    let size = size as f64;
+    match size {
+        size if size < 1e3 => format!("{size:.0} B"),
+        size if size < 1e6 => format!("{:.1} kB", size / 1e3),
+        size if size < 1e9 => format!("{:.1} MB", size / 1e6),
+        size => format!("{:.2} GB", size / 1e9),
+    }
+}
+
 /// Memory that this process can still have [byte]: what the system says is available, less where a control
 /// group or the user's limits allow less; `None` where the system does not say.
 pub(super) fn available_memory() -> Option<u64> {
@@ -45,6 +56,13 @@ pub(super) fn free_disk_space(folder: &Path) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sizes_read_well() {
+        assert_eq!(size_in_words(999), "999 B");
+        assert_eq!(size_in_words(1_500_000), "1.5 MB");
+        assert_eq!(size_in_words(12_340_000_000), "12.34 GB");
+    }
 
     #[test]
     fn the_texts_of_the_system_are_understood() {

@@ -60,9 +60,9 @@ fn damaged_inputs_are_refused_with_a_message_and_never_panic_hang_or_fill_the_me
                 eprintln!(
                     "{cases} cases of seed {seed}: {accepted} accepted, {refused} refused, in {taken:.1} s"
                 );
-                // Changes that break everything, or nothing, test little.
+                // Changes that break everything, or nothing, test little; a few cases alone may be of one kind.
                 assert!(
-                    40 * accepted > cases && 4 * refused > cases,
+                    cases < 1000 || 40 * accepted > cases && 4 * refused > cases,
                     "{accepted} accepted, {refused} refused"
                 );
                 break;

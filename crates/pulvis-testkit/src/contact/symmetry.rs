@@ -26,10 +26,13 @@ struct Moment {
 }
 
 type Performance = Vec<Moment>;
-type Size<'a> = &'a dyn Fn(&Moment) -> f64;
 
 /// How a contact looks from elsewhere.
 struct View {
+    /// By how much positions are moved at first [m].
+    shift: Vector3,
+    /// A speed that all bodies have beside their own [m/s].
+    drift: Vector3,
     /// What becomes of positions, velocities and forces.
     polar: Box<dyn Fn(Vector3) -> Vector3>,
     /// What becomes of angular velocities and torques.
@@ -44,10 +47,11 @@ struct View {
 
 impl View {
     fn kinematics(&self, dance: &Dance, step: usize) -> [Kinematics; 2] {
+        let moved = self.shift + self.drift * (dance.duration / STEPS as f64 * step as f64);
         let seen = dance.step(step, STEPS).map(|body| Kinematics {
-            position: (self.polar)(body.position),
-            velocity: (self.polar)(body.velocity),
-            velocity_mid: (self.polar)(body.velocity_mid),
+            position: (self.polar)(body.position + moved),
+            velocity: (self.polar)(body.velocity + self.drift),
+            velocity_mid: (self.polar)(body.velocity_mid + self.drift),
             angular_velocity: (self.axial)(body.angular_velocity),
             angular_velocity_mid: (self.axial)(body.angular_velocity_mid),
         });
@@ -88,55 +92,97 @@ fn perform(model: &ContactModel, dance: &Dance, view: &View) -> Performance {
 }
 
 fn as_it_is() -> View {
-    View { polar: Box::new(|v| v), axial: Box::new(|v| v), torsion: 1.0, exchanged: false }
+    View {
+        shift: Vector3::zero(),
+        drift: Vector3::zero(),
+        polar: Box::new(|v| v),
+        axial: Box::new(|v| v),
+        torsion: 1.0,
+        exchanged: false,
+    }
 }
 
 /// Asserts that the contact seen by `view` is the view of the contact.
+///
+/// Whether a bond breaks in a step or a contact peels off in it is now and then decided by the round-off of positions;
+/// springs and memory then go other ways for good. Such a dance says nothing about symmetry. It is known by this: it goes
+/// other ways already where all positions are shifted.
 fn looks_the_same(model: &ContactModel, dance: &Dance, view: &View) {
     let (direct, seen) = (perform(model, dance, &as_it_is()), perform(model, dance, view));
-    let largest = |size: Size| ROUND_OFF * direct.iter().map(size).fold(1e-290, f64::max);
-    let force = largest(&|Moment { answer, .. }| answer.force.norm());
-    let torque = largest(&|Moment { answer, .. }| answer.torque_i.norm().max(answer.torque_j.norm()));
-    let spring =
-        largest(&|Moment { springs: s, .. }| s.sliding.norm().max(s.rolling.norm()).max(s.torsion.abs()));
-    let bond_shear = largest(&|Moment { springs: s, .. }| s.bond_shear.norm());
-    let bond_turn = largest(&|Moment { springs: s, .. }| s.bond_bending.norm().max(s.bond_twist.abs()));
-    let energy = largest(&|Moment { answer, .. }| {
-        let energies = ContactEnergies { viscous_power: 0.0, ..answer.energies };
-        energies.accounts().iter().map(|(_, energy)| energy.abs()).sum()
+    let Some(difference) = first_difference(&direct, &seen, view, 1.0) else { return };
+    let is_a_matter_of_round_off = (0..SHIFTS).any(|number| {
+        let shifted = View { shift: shift(dance, number), ..as_it_is() };
+        let other = perform(model, dance, &shifted);
+        // So much farther from the origin, so much more round-off.
+        first_difference(&direct, &other, &shifted, FARTHEST).is_some()
     });
-    let power = largest(&|Moment { answer, .. }| answer.energies.viscous_power.abs());
-    let columns = 0..direct[0].scalars.len();
-    let size = |column: usize| direct.iter().map(|moment| moment.scalars[column].abs()).fold(0.0, f64::max);
-    let largest_scalars: Vec<f64> = columns.map(size).collect();
-    for (step, (direct, seen)) in direct.iter().zip(&seen).enumerate() {
-        let (Moment { answer, springs, scalars }, other, others) = (direct, seen.answer, seen.springs);
+    assert!(is_a_matter_of_round_off, "{difference}, {model:?}");
+}
+
+/// Shifts that are tried, and radii by which they go.
+const SHIFTS: u32 = 64;
+const FARTHEST: f64 = 30.0;
+
+/// One of several ways by which a dance is moved elsewhere [m].
+fn shift(dance: &Dance, number: u32) -> Vector3 {
+    let mut draw = Draw::new(u64::from(number));
+    draw.direction() * (draw.between(0.5, 1.0) * FARTHEST * dance.radius_i)
+}
+
+/// What first differs between a contact and the view of it by more than `wider` times round-off.
+fn first_difference(direct: &Performance, seen: &Performance, view: &View, wider: f64) -> Option<String> {
+    let all: Vec<_> = direct.iter().zip(seen).map(|(one, other)| compared(one, other, view)).collect();
+    let largest = |place: usize| all.iter().map(|moment| moment[place].size).fold(1e-290, f64::max);
+    let scales: Vec<f64> = (0..all[0].len()).map(largest).collect();
+    for (step, (moment, direct)) in all.iter().zip(direct).enumerate() {
         // When within its step a bond broke is known to the round-off of positions over the way of that step.
-        let wider = if answer.energies.dissipated_fracture > 0.0 { BREAKING } else { 1.0 };
-        let close = |one: f64, what: &str, tolerance: f64| {
-            let tolerance = wider * tolerance;
-            assert!(one <= tolerance, "{what} differs by {one}, allowed {tolerance}, step {step}, {model:?}");
-        };
-        let [expected, first, second] = view.response(answer);
-        close((expected - other.force).norm(), "force", force);
-        close((first - other.torque_i).norm(), "torque on i", torque);
-        close((second - other.torque_j).norm(), "torque on j", torque);
-        let expected = view.springs(springs);
-        close((expected.sliding - others.sliding).norm(), "sliding spring", spring);
-        close((expected.rolling - others.rolling).norm(), "rolling spring", spring);
-        close((expected.torsion - others.torsion).abs(), "torsion spring", spring);
-        close((expected.bond_shear - others.bond_shear).norm(), "shear of the bond", bond_shear);
-        close((expected.bond_bending - others.bond_bending).norm(), "bending of the bond", bond_turn);
-        close((expected.bond_twist - others.bond_twist).abs(), "twist of the bond", bond_turn);
-        for (index, (one, two)) in scalars.iter().zip(&seen.scalars).enumerate() {
-            close((one - two).abs(), "memory", ROUND_OFF * largest_scalars[index]);
-        }
-        let pairs = answer.energies.accounts().into_iter().zip(other.energies.accounts());
-        for ((account, one), (_, two)) in pairs {
-            let tolerance = if account == "viscous_power" { power } else { energy };
-            close((one - two).abs(), account, tolerance);
+        let breaking = if direct.answer.energies.dissipated_fracture > 0.0 { BREAKING } else { 1.0 };
+        for (Compared { what, difference, .. }, scale) in moment.iter().zip(&scales) {
+            let allowed = wider * breaking * ROUND_OFF * scale;
+            if difference.is_nan() || *difference > allowed {
+                return Some(format!("{what} differs by {difference}, allowed {allowed}, step {step}"));
+            }
         }
     }
+    None
+}
+
+/// One quantity of a contact and of the view of it: how far they lie apart, and how large it is.
+struct Compared {
+    what: &'static str,
+    difference: f64,
+    size: f64,
+}
+
+fn compared(direct: &Moment, seen: &Moment, view: &View) -> Vec<Compared> {
+    let (answer, other) = (&direct.answer, &seen.answer);
+    let [force, first, second] = view.response(answer);
+    let (springs, others) = (view.springs(&direct.springs), &seen.springs);
+    let torque = first.norm().max(second.norm());
+    let spring = springs.sliding.norm().max(springs.rolling.norm()).max(springs.torsion.abs());
+    let turn = springs.bond_bending.norm().max(springs.bond_twist.abs());
+    let energies = ContactEnergies { viscous_power: 0.0, ..answer.energies }.accounts();
+    let energy = energies.iter().map(|(_, energy)| energy.abs()).sum();
+    let one = |what, difference, size| Compared { what, difference, size };
+    let mut all = vec![
+        one("force", (force - other.force).norm(), force.norm()),
+        one("torque on i", (first - other.torque_i).norm(), torque),
+        one("torque on j", (second - other.torque_j).norm(), torque),
+        one("sliding spring", (springs.sliding - others.sliding).norm(), spring),
+        one("rolling spring", (springs.rolling - others.rolling).norm(), spring),
+        one("torsion spring", (springs.torsion - others.torsion).abs(), spring),
+        one("shear of bond", (springs.bond_shear - others.bond_shear).norm(), springs.bond_shear.norm()),
+        one("bending of bond", (springs.bond_bending - others.bond_bending).norm(), turn),
+        one("twist of bond", (springs.bond_twist - others.bond_twist).abs(), turn),
+    ];
+    let memory = direct.scalars.iter().zip(&seen.scalars);
+    // Remembered energies are squares of forces: their relative round-off is twice that of the forces.
+    all.extend(memory.map(|(column, other)| one("memory", (column - other).abs(), 2.0 * column.abs())));
+    let accounts = answer.energies.accounts().into_iter().zip(other.energies.accounts());
+    all.extend(accounts.map(|((account, value), (_, other))| {
+        one(account, (value - other).abs(), if account == "viscous_power" { value.abs() } else { energy })
+    }));
+    all
 }
 
 pub(super) fn a_turned_frame_turns_the_answer(model: &ContactModel, dance: &Dance, draw: &mut Draw) {
@@ -154,40 +200,14 @@ pub(super) fn exchanged_bodies_feel_the_same(model: &ContactModel, dance: &Dance
 pub(super) fn a_mirror_shows_the_same_contact(model: &ContactModel, dance: &Dance, draw: &mut Draw) {
     let across = draw.direction();
     let mirror = move |v: Vector3| v - across * (2.0 * across.dot(v));
-    let view = View {
-        polar: Box::new(mirror),
-        axial: Box::new(move |v| -mirror(v)),
-        torsion: -1.0,
-        exchanged: false,
-    };
+    let view =
+        View { polar: Box::new(mirror), axial: Box::new(move |v| -mirror(v)), torsion: -1.0, ..as_it_is() };
     looks_the_same(model, dance, &view);
 }
 
 pub(super) fn a_common_speed_changes_nothing(model: &ContactModel, dance: &Dance, draw: &mut Draw) {
-    let dt = dance.duration / STEPS as f64;
-    let boost = draw.vector() * (dance.radius_i / dance.duration);
-    let run = |boost: Vector3| -> Performance {
-        let mut contact = LiveContact::new(model, dance.pair);
-        (0..=STEPS)
-            .map(|step| {
-                let [i, j] = dance.step(step, STEPS).map(|body| Kinematics {
-                    position: body.position + boost * (dt * step as f64),
-                    velocity: body.velocity + boost,
-                    velocity_mid: body.velocity_mid + boost,
-                    ..body
-                });
-                let motion = pair_motion(dance.radius_i, &i, Some((dance.radius_j, &j)));
-                let answer = contact.respond(&motion, dt);
-                Moment { answer, springs: contact.springs(), scalars: contact.scalars() }
-            })
-            .collect()
-    };
-    let (resting, moving) = (run(Vector3::zero()), run(boost));
-    let scale = resting.iter().map(|moment| moment.answer.force.norm()).fold(1e-290, f64::max);
-    for (one, other) in resting.iter().zip(&moving) {
-        let difference = (one.answer.force - other.answer.force).norm();
-        assert!(difference <= ROUND_OFF * scale, "{difference} N of {scale} N, {model:?}");
-    }
+    let drift = draw.vector() * (dance.radius_i / dance.duration);
+    looks_the_same(model, dance, &View { drift, ..as_it_is() });
 }
 
 pub(super) fn momentum_is_only_exchanged(model: &ContactModel, dance: &Dance) {

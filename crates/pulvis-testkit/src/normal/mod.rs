@@ -17,14 +17,18 @@ mod lanes;
 mod paths;
 mod shape;
 
+use collision::{Collisions, a_collision_at_the_automatic_step_keeps_its_energy};
+
 /// Checks every normal law of the catalogue with `count` random sets of parameters.
 pub fn check_all(count: u64) {
     for entry in Normal::ENTRIES {
+        let mut collisions = Collisions::default();
         for_each_case(entry.name, count, |draw| {
             let law = random_law(entry, draw, Normal::build);
             law.accept(Suite { draw });
-            collision::a_collision_at_the_automatic_step_keeps_its_energy(&law, draw);
+            a_collision_at_the_automatic_step_keeps_its_energy(&law, draw, &mut collisions);
         });
+        collisions.are_nearly_always_right(entry.name);
     }
 }
 
