@@ -113,8 +113,8 @@ fn looks_the_same(model: &ContactModel, dance: &Dance, view: &View) {
     let is_a_matter_of_round_off = (0..SHIFTS).any(|number| {
         let shifted = View { shift: shift(dance, number), ..as_it_is() };
         let other = perform(model, dance, &shifted);
-        // So much farther from the origin, so much more round-off; a rotation rounds off some times, a shift once.
-        first_difference(&direct, &other, &shifted, FARTHEST / 3.0).is_some()
+        // So much farther from the origin, so much more round-off; a rotation or a mirror rounds off ten times, a shift once.
+        first_difference(&direct, &other, &shifted, FARTHEST / 10.0).is_some()
     });
     assert!(is_a_matter_of_round_off, "{difference}, {model:?}");
 }
