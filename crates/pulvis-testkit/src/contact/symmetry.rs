@@ -104,29 +104,31 @@ fn as_it_is() -> View {
 
 /// Asserts that the contact seen by `view` is the view of the contact.
 ///
-/// Whether a bond breaks in a step or a contact peels off in it is now and then decided by the round-off of positions;
-/// springs and memory then go other ways for good. Such a dance says nothing about symmetry. It is known by this: it goes
-/// other ways already where all positions are shifted.
+/// Whether a bond breaks in a step or a contact peels off in it is now and then decided by the round-off of positions and
+/// velocities; springs and memory then go other ways for good. Such a dance says nothing about symmetry. It is known by
+/// this: it goes other ways already where it is danced elsewhere at another speed.
 fn looks_the_same(model: &ContactModel, dance: &Dance, view: &View) {
     let (direct, seen) = (perform(model, dance, &as_it_is()), perform(model, dance, view));
     let Some(difference) = first_difference(&direct, &seen, view, 1.0) else { return };
-    let is_a_matter_of_round_off = (0..SHIFTS).any(|number| {
-        let shifted = View { shift: shift(dance, number), ..as_it_is() };
-        let other = perform(model, dance, &shifted);
+    let is_a_matter_of_round_off = (0..PLACES).any(|number| {
+        let elsewhere = elsewhere(dance, number);
+        let other = perform(model, dance, &elsewhere);
         // So much farther from the origin, so much more round-off; a rotation or a mirror rounds off ten times, a shift once.
-        first_difference(&direct, &other, &shifted, FARTHEST / 10.0).is_some()
+        first_difference(&direct, &other, &elsewhere, FARTHEST / 10.0).is_some()
     });
     assert!(is_a_matter_of_round_off, "{difference}, {model:?}");
 }
 
-/// Shifts that are tried, and radii by which they go.
-const SHIFTS: u32 = 64;
+/// Places that are tried, and radii by which they lie off and by which the dance moves on there.
+const PLACES: u64 = 64;
 const FARTHEST: f64 = 30.0;
 
-/// One of several ways by which a dance is moved elsewhere [m].
-fn shift(dance: &Dance, number: u32) -> Vector3 {
-    let mut draw = Draw::new(u64::from(number));
-    draw.direction() * (draw.between(0.5, 1.0) * FARTHEST * dance.radius_i)
+/// A dance in one of several places, at another speed.
+fn elsewhere(dance: &Dance, number: u64) -> View {
+    let mut draw = Draw::new(number);
+    let mut far = || draw.direction() * (draw.between(0.5, 1.0) * FARTHEST * dance.radius_i);
+    let (shift, way) = (far(), far());
+    View { shift, drift: way * (1.0 / dance.duration), ..as_it_is() }
 }
 
 /// What first differs between a contact and the view of it by more than `wider` times round-off.
