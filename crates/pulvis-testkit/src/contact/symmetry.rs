@@ -109,12 +109,11 @@ fn as_it_is() -> View {
 /// this: it goes other ways already where it is danced elsewhere at another speed.
 fn looks_the_same(model: &ContactModel, dance: &Dance, view: &View) {
     let (direct, seen) = (perform(model, dance, &as_it_is()), perform(model, dance, view));
-    let Some(difference) = first_difference(&direct, &seen, view, 1.0) else { return };
+    let Some(difference) = first_difference(&direct, &seen, view) else { return };
     let is_a_matter_of_round_off = (0..PLACES).any(|number| {
         let elsewhere = elsewhere(dance, number);
         let other = perform(model, dance, &elsewhere);
-        // So much farther from the origin, so much more round-off; a rotation or a mirror rounds off ten times, a shift once.
-        first_difference(&direct, &other, &elsewhere, FARTHEST / 10.0).is_some()
+        first_difference(&direct, &other, &elsewhere).is_some()
     });
     assert!(is_a_matter_of_round_off, "{difference}, {model:?}");
 }
@@ -131,8 +130,8 @@ fn elsewhere(dance: &Dance, number: u64) -> View {
     View { shift, drift: way * (1.0 / dance.duration), ..as_it_is() }
 }
 
-/// What first differs between a contact and the view of it by more than `wider` times round-off.
-fn first_difference(direct: &Performance, seen: &Performance, view: &View, wider: f64) -> Option<String> {
+/// What first differs between a contact and the view of it by more than round-off.
+fn first_difference(direct: &Performance, seen: &Performance, view: &View) -> Option<String> {
     let all: Vec<_> = direct.iter().zip(seen).map(|(one, other)| compared(one, other, view)).collect();
     let largest = |place: usize| all.iter().map(|moment| moment[place].size).fold(1e-290, f64::max);
     let scales: Vec<f64> = (0..all[0].len()).map(largest).collect();
@@ -140,7 +139,7 @@ fn first_difference(direct: &Performance, seen: &Performance, view: &View, wider
         // When within its step a bond broke is known to the round-off of positions over the way of that step.
         let breaking = if direct.answer.energies.dissipated_fracture > 0.0 { BREAKING } else { 1.0 };
         for (Compared { what, difference, .. }, scale) in moment.iter().zip(&scales) {
-            let allowed = wider * breaking * ROUND_OFF * scale;
+            let allowed = breaking * ROUND_OFF * scale;
             if difference.is_nan() || *difference > allowed {
                 return Some(format!("{what} differs by {difference}, allowed {allowed}, step {step}"));
             }
