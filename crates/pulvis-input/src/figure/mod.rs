@@ -16,6 +16,7 @@ mod reference;
 mod runs;
 mod series;
 mod settings;
+mod snapshots;
 
 pub use axis::FigureAxis;
 pub use check::{Against, FigureCheck};
@@ -29,6 +30,7 @@ pub use reference::ReferenceTable;
 pub use runs::{PlannedRun, Runs};
 pub use series::{Approximation, FigureSeries, Show};
 pub use settings::{Settings, Variant};
+pub use snapshots::FigureSnapshots;
 
 use crate::context::Reported;
 use crate::document::Document;
@@ -43,6 +45,7 @@ use feature::read_features;
 use notes::read_notes;
 use panel::read_panels;
 use settings::read_variants;
+use snapshots::read_snapshots;
 use std::cell::RefCell;
 use std::path::Path;
 
@@ -74,6 +77,8 @@ pub struct FigureScenario {
     pub data: Vec<FigureData>,
     /// What is drawn.
     pub panels: Vec<FigurePanel>,
+    /// Pictures of particles.
+    pub snapshots: Vec<FigureSnapshots>,
     /// What is checked.
     pub checks: Vec<FigureCheck>,
     /// What is seen in its runs.
@@ -124,16 +129,17 @@ fn walk(mut root: TableReader<'_>, around: &Surroundings<'_>) -> Result<FigureSc
         Err(reported) => root.value("data").map_or(Err(*reported), |_| Err(*reported)),
     };
     let variant_list = variants.as_deref().unwrap_or_default();
-    let (panels, checks, features) = match &data {
+    let (panels, snapshots, checks, features) = match &data {
         Ok(data) => (
             read_panels(&mut root, (data, variant_list), around),
+            read_snapshots(&mut root, data, variant_list),
             read_checks(&mut root, data, around),
             read_features(&mut root, data),
         ),
         // Without the data nobody knows what can be drawn.
         Err(reported) => {
-            let _ = ["panels", "checks", "features"].map(|key| root.value(key).is_some());
-            (Err(*reported), Err(*reported), Err(*reported))
+            let _ = ["panels", "snapshots", "checks", "features"].map(|key| root.value(key).is_some());
+            (Err(*reported), Err(*reported), Err(*reported), Err(*reported))
         }
     };
     if let (Ok(data), Ok(panels), Ok(checks)) = (&data, &panels, &checks) {
@@ -152,6 +158,7 @@ fn walk(mut root: TableReader<'_>, around: &Surroundings<'_>) -> Result<FigureSc
         columns: usize::try_from(columns?).unwrap_or(1),
         data: data?,
         panels: panels?,
+        snapshots: snapshots?,
         checks: checks?,
         features: features?,
         variants: variants?,

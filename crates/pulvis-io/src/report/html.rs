@@ -1,7 +1,9 @@
 //! One page: style and pictures inside.
 
-use super::{Block, DIGITS, Report, Section, Verdict, marked_up};
+use super::{Block, DIGITS, Image, Report, Section, Verdict, marked_up};
 use crate::table::{Cell, Table, significant};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write as _;
 
 /// For screens light and dark, wide and narrow, and for paper.
@@ -74,6 +76,9 @@ fn section(section: &Section) -> String {
                 escape(alternative),
                 svg.trim()
             ),
+            Block::Images(images) => {
+                format!("<div class=\"images\">{}</div>\n", images.iter().map(image).collect::<String>())
+            }
             Block::Table(table) => self::table(table),
             Block::Files(files) => {
                 let links = files.iter().map(|file| format!("<a href=\"{0}\">{0}</a>", escape(file)));
@@ -87,6 +92,16 @@ fn section(section: &Section) -> String {
         };
     }
     html + "</section>\n"
+}
+
+fn image(image: &Image) -> String {
+    let Image { png, caption, .. } = image;
+    format!(
+        "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>",
+        escape(caption),
+        STANDARD.encode(png),
+        text(caption)
+    )
 }
 
 fn table(table: &Table) -> String {

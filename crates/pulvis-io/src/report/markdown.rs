@@ -1,6 +1,6 @@
 //! Markdown, with pictures as files beside it.
 
-use super::{Block, DIGITS, Report, Section, marked_up};
+use super::{Block, DIGITS, Image, Report, Section, marked_up};
 use crate::table::{Cell, Table, significant};
 
 fn escape(text: &str) -> String {
@@ -40,6 +40,10 @@ fn section(section: &Section) -> String {
             Block::Paragraph(words) | Block::Caption(words) => format!("{}\n", text(words)),
             Block::Remark { head, text: words } => format!("**{}** {}\n", text(head), text(words)),
             Block::Picture { file, alternative, .. } => format!("![{}]({file})\n", text(alternative)),
+            Block::Images(images) => {
+                let image = |image: &Image| format!("![{}]({})", text(&image.caption), image.file);
+                images.iter().map(image).collect::<Vec<_>>().join(" ") + "\n"
+            }
             Block::Table(table) => self::table(table),
             // No links: a report is also kept without all its files.
             Block::Files(files) => format!("Files: {}\n", text(&files.join(", "))),

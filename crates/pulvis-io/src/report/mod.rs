@@ -62,6 +62,8 @@ pub enum Block {
         /// What it shows, for those who cannot see it.
         alternative: String,
     },
+    /// Pictures beside one another.
+    Images(Vec<Image>),
     /// Text under a picture.
     Caption(String),
     /// A table; numbers are rounded.
@@ -75,6 +77,17 @@ pub enum Block {
         /// The text.
         text: String,
     },
+}
+
+/// A picture of pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// The picture as PNG.
+    pub png: Vec<u8>,
+    /// Name of the picture's file beside the report, for Markdown.
+    pub file: String,
+    /// What it shows, in a word.
+    pub caption: String,
 }
 
 /// A section: one figure.

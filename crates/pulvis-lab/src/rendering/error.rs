@@ -38,6 +38,14 @@ pub enum RenderError {
         /// Number of frames.
         count: usize,
     },
+    /// No frame is of this time.
+    #[error(
+        "no frame was written at {time:e} s; frames are written at the end of each stage unless `vtk = false`"
+    )]
+    NoTime {
+        /// What was asked for \[s\].
+        time: f64,
+    },
     /// A column that is not there.
     #[error("colour: {0}")]
     Quantity(Box<Problem>),

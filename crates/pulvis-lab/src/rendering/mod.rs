@@ -64,6 +64,14 @@ impl Rendering {
             FrameChoice::All => instants,
             FrameChoice::Last => instants.split_off(count - 1),
             FrameChoice::Number(found) if found < count => instants.drain(found..=found).collect(),
+            FrameChoice::Time(time) => {
+                // Times went through text, and are sums of steps.
+                let is_it = |instant: &Instant| (instant.time - time).abs() <= 1e-9 * time.abs();
+                match instants.into_iter().find(is_it) {
+                    Some(instant) => vec![instant],
+                    None => return Err(RenderError::NoTime { time }),
+                }
+            }
             FrameChoice::Number(found) => return Err(RenderError::NoFrame { found, count }),
         };
         let output = match output {

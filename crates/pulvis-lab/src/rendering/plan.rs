@@ -9,10 +9,12 @@ use super::quantity::Quantity;
 use super::view::ViewPoint;
 
 /// Which frames of a run become pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FrameChoice {
     /// The one of this number, from 0.
     Number(usize),
+    /// The one of this time \[s\].
+    Time(f64),
     /// The last one.
     Last,
     /// Every one.

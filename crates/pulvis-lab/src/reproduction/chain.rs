@@ -2,6 +2,7 @@
 
 use super::ReproductionError;
 use super::series::FinishedRun;
+use super::snapshots::plain;
 use super::workplace::{RunDone, Workplace};
 use crate::protocol::{PictureOptions, RunOptions, RunSummary, column_names, has_ended, run};
 use pulvis_input::figure::{Experiment, Family, FigureScenario, PlannedRun, Runs};
@@ -196,11 +197,6 @@ fn is_there(scenario: &Scenario, workplace: &Workplace<'_>, folder: &Path) -> bo
 
 /// Where a run writes.
 fn folder(figure: &FigureScenario, workplace: &Workplace<'_>, task: Task) -> PathBuf {
-    let plain = |name: &str| {
-        name.chars()
-            .map(|letter| if letter.is_alphanumeric() || letter == '.' { letter } else { '-' })
-            .collect()
-    };
     let data: String = figure.data.get(task.data).map_or_else(String::new, |data| plain(&data.name));
     let variant: String =
         figure.variants.get(task.variant).map_or_else(String::new, |variant| plain(&variant.name));

@@ -15,17 +15,20 @@ mod report;
 mod results;
 mod run;
 mod series;
+mod snapshots;
 mod workplace;
 
 pub use features::SeenFeature;
 pub use judge::Judged;
 pub use report::{files, report};
 pub use run::{Attempt, run_all};
+pub use snapshots::Snapshot;
 pub use workplace::{RunDone, Seats, Workplace};
 
 use crate::collision::CollisionError;
 use crate::probe::ProbeError;
 use crate::protocol::RunError;
+use crate::rendering::RenderError;
 use pulvis_input::figure::FigureScenario;
 use pulvis_io::IoError;
 use pulvis_io::plot::Figure;
@@ -63,7 +66,15 @@ pub enum ReproductionError {
         /// Why.
         source: std::io::Error,
     },
-    /// The time series of a run cannot be read.
+    /// Particles of a run cannot be drawn.
+    #[error("the particles of `{data}`: {source}")]
+    Snapshot {
+        /// The data.
+        data: String,
+        /// Why.
+        source: Box<RenderError>,
+    },
+    /// The time series of a run, or a picture of it, cannot be read.
     #[error("{}: {reason}; run the figure again", .file.display())]
     TimeSeries {
         /// The file.
@@ -115,6 +126,8 @@ pub struct Reproduction {
     pub checks: Vec<Judged>,
     /// What was seen in its runs.
     pub features: Vec<SeenFeature>,
+    /// Pictures of particles.
+    pub snapshots: Vec<Snapshot>,
 }
 
 impl Reproduction {
@@ -138,5 +151,6 @@ pub fn reproduce(
     let checks = judged.collect::<Result<_, _>>()?;
     let seen = figure.features.iter().map(|feature| features::look(feature, &results));
     let features = seen.collect::<Result<_, _>>()?;
-    Ok(Reproduction { picture, table, checks, features })
+    let snapshots = snapshots::draw(figure, &results, workplace)?;
+    Ok(Reproduction { picture, table, checks, features, snapshots })
 }

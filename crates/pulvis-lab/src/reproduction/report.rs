@@ -2,9 +2,10 @@
 
 use super::judge::Judged;
 use super::run::Attempt;
-use super::{Reproduction, ReproductionError};
+use super::snapshots::snapshot_files;
+use super::{Reproduction, ReproductionError, Snapshot};
 use pulvis_input::figure::{Experiment, Feature, FigureData, FigureScenario};
-use pulvis_io::report::{Block, Report, Section, SummaryRow, Verdict};
+use pulvis_io::report::{Block, Image, Report, Section, SummaryRow, Verdict};
 use pulvis_io::table::{Cell, Table, significant};
 
 /// What the report is about.
@@ -49,6 +50,7 @@ pub fn files(figure: &FigureScenario) -> Vec<String> {
     if !figure.features.is_empty() {
         files.push(feature_file(figure));
     }
+    files.extend(snapshot_files(figure));
     files
 }
 
@@ -112,6 +114,7 @@ fn section(attempt: &Attempt) -> Result<Section, ReproductionError> {
                 alternative: figure.title.clone(),
             });
             blocks.push(Block::Caption(figure.caption.clone()));
+            blocks.extend(snapshots(reproduction));
             blocks.push(remark("Compared with the paper.", &figure.compared));
             blocks.extend(figure.notes.iter().map(|note| remark(&format!("{}.", note.key), &note.text)));
             blocks.extend(checks(reproduction)?);
@@ -128,6 +131,21 @@ fn section(attempt: &Attempt) -> Result<Section, ReproductionError> {
         verdict: verdict(attempt),
         blocks,
     })
+}
+
+/// Pictures of particles, those with one title beside one another.
+fn snapshots(reproduction: &Reproduction) -> Vec<Block> {
+    let together = reproduction.snapshots.chunk_by(|one, other| one.title == other.title);
+    let blocks = together.map(|snapshots| {
+        let image = |snapshot: &Snapshot| Image {
+            png: snapshot.png.clone(),
+            file: snapshot.file.clone(),
+            caption: snapshot.stage.clone(),
+        };
+        let title = snapshots.first().map_or("", |snapshot| snapshot.title.as_str());
+        [Block::Images(snapshots.iter().map(image).collect()), Block::Caption(title.to_owned())]
+    });
+    blocks.flatten().collect()
 }
 
 fn remark(head: &str, text: &str) -> Block {

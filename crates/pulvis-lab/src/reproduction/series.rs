@@ -3,7 +3,7 @@
 use super::ReproductionError;
 use pulvis_input::figure::{Measure, OfRun};
 use pulvis_input::scenario::{Scenario, WallControl, WallMotion};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A run and its time series.
 pub(super) struct FinishedRun<'f> {
@@ -12,6 +12,8 @@ pub(super) struct FinishedRun<'f> {
     /// What the variant is called.
     pub variant_name: String,
     pub scenario: &'f Scenario,
+    /// Where its files are.
+    pub folder: PathBuf,
     columns: Vec<String>,
     rows: Vec<Vec<f64>>,
 }
@@ -36,7 +38,7 @@ impl<'f> FinishedRun<'f> {
                 .ok_or_else(|| unreadable(format!("line {number} does not hold {} numbers", columns.len())))
         };
         let rows = lines.zip(2..).map(row).collect::<Result<_, _>>()?;
-        Ok(Self { variant, variant_name, scenario, columns, rows })
+        Ok(Self { variant, variant_name, scenario, folder: folder.to_owned(), columns, rows })
     }
 
     /// The index of a column.
