@@ -79,7 +79,7 @@ impl Scenario {
     }
 }
 
-pub(super) fn write_extent(writer: &mut Writer, extent: &Cuboid) {
+pub(in crate::scenario) fn write_extent(writer: &mut Writer, extent: &Cuboid) {
     writer.key("lower", vector(extent.lower, Dimension::LENGTH));
     writer.key("upper", vector(extent.upper, Dimension::LENGTH));
 }
