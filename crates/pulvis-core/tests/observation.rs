@@ -54,7 +54,7 @@ fn a_crystal_has_the_stress_fabric_and_coordination_of_its_closed_form() {
     let seen = whole(&Simulation::new(setup).unwrap());
     // Twelve neighbours at d (1 - 0.01), each with k δ.
     let force = stiffness * overlap * DIAMETER;
-    let solid = count * PI / 6.0 * DIAMETER.powi(3) / volume;
+    let solid = count * PI / 6.0 * (DIAMETER * DIAMETER * DIAMETER) / volume;
     let expected = solid * 12.0 * force * (1.0 - overlap) / (PI * DIAMETER * DIAMETER);
     let stress = seen.stress(volume);
     assert_eq!((seen.particles, seen.contacts, seen.contact_ends), (count, 6.0 * count, 12.0 * count));

@@ -32,7 +32,8 @@ fn scaled(scale: f64) -> (Simulation, f64) {
     let walls = cube_of_walls(edge * scale);
     let background = gravity(981.0 / scale);
     let setup = Setup { walls, background, time_step: 2e-6 * scale, ..setup };
-    (Simulation::new(setup).unwrap(), (edge * scale).powi(3))
+    let length = edge * scale;
+    (Simulation::new(setup).unwrap(), length * length * length)
 }
 
 #[test]

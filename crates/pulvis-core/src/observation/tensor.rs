@@ -35,15 +35,11 @@ pub fn pressure(tensor: &Tensor) -> f64 {
 /// √(3/2 s : s) of the symmetric traceless part s: of a stress what von Mises compares.
 pub fn deviator(tensor: &Tensor) -> f64 {
     let mean = pressure(tensor);
-    let mut square = 0.0;
-    for row in 0..3 {
-        for column in 0..3 {
-            let symmetric = 0.5 * (tensor[row][column] + tensor[column][row]);
-            let part = symmetric - if row == column { mean } else { 0.0 };
-            square += part * part;
-        }
-    }
-    (1.5 * square).sqrt()
+    let part = from_fn(|row, column| {
+        let symmetric = 0.5 * (tensor[row][column] + tensor[column][row]);
+        symmetric - if row == column { mean } else { 0.0 }
+    });
+    (1.5 * part.iter().flatten().map(|component| component * component).sum::<f64>()).sqrt()
 }
 
 /// Eigenvalues of the symmetric part, the largest first; NaN if a component is not finite. By Jacobi rotations (Golub, Van

@@ -180,14 +180,11 @@ pub(super) fn check_discards(
 ) -> Result<(), Reported> {
     let longest = durations.iter().copied().try_fold(0.0_f64, |longest, time| Some(longest.max(time?)));
     let Some(longest) = longest else { return Ok(()) };
-    for observer in observers.iter().filter(|observer| observer.discard >= longest) {
-        let (name, discard) = (&observer.name, observer.discard);
-        let found = format!(
-            "observer {name:?} discards {discard} s of each stage, and none is longer than {longest} s"
-        );
-        return Err(root.refuse("observers", Problem::rule(found, "a stage of which something is left")));
-    }
-    Ok(())
+    let Some(observer) = observers.iter().find(|observer| observer.discard >= longest) else { return Ok(()) };
+    let (name, discard) = (&observer.name, observer.discard);
+    let found =
+        format!("observer {name:?} discards {discard} s of each stage, and none is longer than {longest} s");
+    Err(root.refuse("observers", Problem::rule(found, "a stage of which something is left")))
 }
 
 /// Writes `[[observers]]`.
