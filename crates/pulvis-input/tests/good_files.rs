@@ -283,6 +283,13 @@ fn stages_take_particles_away_in_any_region() {
 }
 
 #[test]
+fn a_gas_can_be_without_momentum_and_have_its_temperature_exactly() {
+    let groups = good("periodic_gas.toml").particles;
+    let gas = GasVelocities { standard_deviation: 1.0, zero_momentum: true, exact_temperature: true };
+    assert_eq!((groups[0].velocity.random, groups[1].velocity.random), (gas, GasVelocities::default()));
+}
+
+#[test]
 fn observers_see_the_sample_or_a_region_and_measure_all_but_walls_unless_told() {
     let observers = good("periodic_gas.toml").observers;
     let all = ObservedQuantity::ALL.map(|(_, quantity)| quantity);

@@ -78,7 +78,7 @@ pub use pulvis_boundary::{
     Background, Cuboid, Cylinder, CylinderSide, Domain, Plane, Region, TemperatureProgram, WallMotion,
     WallShape,
 };
-pub use pulvis_packing::{Lattice, RadiusDistribution};
+pub use pulvis_packing::{GasVelocities, Lattice, RadiusDistribution};
 pub use stages::Stage;
 pub use start::StartFrom;
 pub use time::TimeStep;
