@@ -1,8 +1,8 @@
-//! How many particle-steps a second the contact loop does: a compressed cubic lattice of 8000 spheres,
-//! jittered, in a periodic box, with the Luding law and friction.
+//! How many particle-steps a second the contact loop does, and how long observations take: a compressed cubic lattice of
+//! 8000 spheres, or as many as asked for, jittered, in a periodic box, with the Luding law and friction.
 //!
-//! `cargo run --release -p pulvis-core --example throughput [law] [steps]`, where the law is `full`
-//! (sliding, rolling, torsion), `sliding`, `luding` (frictionless) or `linear`.
+//! `cargo run --release -p pulvis-core --example throughput [law] [steps] [side] [threads]`, where the law is `full`
+//! (sliding, rolling, torsion), `sliding`, `luding` (frictionless) or `linear`, and `side` the spheres along each axis.
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;
@@ -11,11 +11,11 @@ use std::time::Instant;
 use pulvis_contact::normal::Interpolation;
 use pulvis_contact::viscosity::{Constant, Viscosity};
 use pulvis_contact::{ContactModel, Friction, Linear, Luding, SpringSlider};
+use pulvis_core::observation::ObservationPlan;
 use pulvis_core::{Background, Domain, Interactions, Particle, Setup, Simulation, shortest_contact};
 use pulvis_math::{Vector3, elementary};
 use pulvis_packing::{Lattice, gaussian_vector, random_stream};
 
-const SIDE: usize = 20;
 const RADIUS: f64 = 0.5e-3;
 
 fn slider(stiffness: f64, coefficient: f64) -> Friction {
@@ -41,12 +41,12 @@ fn model(law: &str) -> ContactModel {
     model
 }
 
-fn setup(law: &str) -> Setup {
+fn setup(law: &str, side: usize) -> Setup {
     // Neighbours on the axes overlap by two percent of the diameter, a little less or more by jitter.
     let spacing = 1.96 * RADIUS;
-    let edge = SIDE as f64 * spacing;
+    let edge = side as f64 * spacing;
     let mut random = random_stream(1);
-    let lattice = Lattice { lower: Vector3::zero(), counts: [SIDE; 3], spacing, jitter: 0.01 };
+    let lattice = Lattice { lower: Vector3::zero(), counts: [side; 3], spacing, jitter: 0.01 };
     let mass = 4.0 / 3.0 * std::f64::consts::PI * 2500.0 * elementary::powi(RADIUS, 3);
     let particles: Vec<Particle> = lattice
         .positions(&mut random)
@@ -72,7 +72,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let law = arguments.next().unwrap_or_else(|| "sliding".to_owned());
     let steps: u32 = arguments.next().map_or(Ok(1000), |given| given.parse())?;
-    let mut simulation = Simulation::new(setup(&law))?;
+    let side = arguments.next().map_or(Ok(20), |given| given.parse())?;
+    let threads = arguments.next().map_or(Ok(1), |given| given.parse())?;
+    let mut simulation = Simulation::new(setup(&law, side))?;
+    simulation.set_threads(threads)?;
     for _ in 0..steps / 10 {
         simulation.step()?;
     }
@@ -93,5 +96,28 @@ fn main() -> Result<(), Box<dyn Error>> {
         simulation.rebuilds() - before,
     );
     println!("relative closing error {:.1e}", simulation.ledger().relative_error());
+    let step = seconds / f64::from(steps);
+    let (whole, contacts_only) =
+        (ObservationPlan::whole(), ObservationPlan { rattlers: false, ..ObservationPlan::whole() });
+    let mut sum = 0.0;
+    time("contacts one by one", step, || simulation.for_each_contact(&mut |seen| sum += seen.overlap));
+    time("contacts gathered", step, || {
+        simulation.gather_contacts(|sum: &mut f64, seen| *sum += seen.overlap);
+    });
+    time("observation without rattlers", step, || drop(simulation.observe(&contacts_only)));
+    time("observation", step, || drop(simulation.observe(&whole)));
     Ok(())
+}
+
+/// Tells how long something takes: the median of several times.
+fn time(what: &str, step: f64, mut work: impl FnMut()) {
+    let mut times: Vec<f64> = (0..15)
+        .map(|_| {
+            let clock = Instant::now();
+            work();
+            clock.elapsed().as_secs_f64()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    println!("{what}: {:.3} ms, {:.2} steps", 1e3 * times[7], times[7] / step);
 }

@@ -10,6 +10,7 @@ mod counting_sort;
 mod integrator;
 mod ledger;
 mod neighbours;
+pub mod observation;
 mod particles;
 mod phases;
 mod simulation;

@@ -271,10 +271,40 @@ fn columns_of_particles_come_in_one_order_with_their_dimensions() {
 }
 
 #[test]
-fn stages_take_particles_away_in_a_sphere_or_a_box() {
+fn stages_take_particles_away_in_any_region() {
     let stages = good("removal.toml").stages;
     assert_eq!(stages[0].remove, None);
     assert_eq!(stages[1].remove, Some(Region::Sphere { centre: [0.0; 3].into(), radius: 1.5e-3 }));
     let (lower, upper) = ([0.0, 0.0, 1e-3].into(), [1e-2; 3].into());
     assert_eq!(stages[2].remove, Some(Region::Box(Cuboid { lower, upper })));
+    let ends = [[0.0; 3].into(), [3e-3, 0.0, 0.0].into()];
+    assert_eq!(stages[3].remove, Some(Region::Cylinder { ends, radius: 0.7e-3 }));
+    assert_eq!(stages[4].remove, Some(Region::Layer { axis: 1, lower: 1e-3, upper: 2e-3 }));
+}
+
+#[test]
+fn a_gas_can_be_without_momentum_and_have_its_temperature_exactly() {
+    let groups = good("periodic_gas.toml").particles;
+    let gas = GasVelocities { standard_deviation: 1.0, zero_momentum: true, exact_temperature: true };
+    assert_eq!((groups[0].velocity.random, groups[1].velocity.random), (gas, GasVelocities::default()));
+}
+
+#[test]
+fn observers_see_the_sample_or_a_region_and_measure_all_but_walls_unless_told() {
+    let observers = good("periodic_gas.toml").observers;
+    let all = ObservedQuantity::ALL.map(|(_, quantity)| quantity);
+    let [whole, slab, ball] = &observers[..] else { panic!("{observers:?}") };
+    let expected = Observer {
+        name: "gas".to_owned(),
+        region: None,
+        quantities: all[..5].to_vec(),
+        discard: 0.0,
+        blocks: 10,
+        histogram: false,
+    };
+    assert_eq!(*whole, expected);
+    assert_eq!(slab.region, Some(Region::Layer { axis: 2, lower: 0.0, upper: 5e-3 }));
+    assert_eq!(slab.quantities, [ObservedQuantity::Stress, ObservedQuantity::Particles]);
+    assert_eq!((slab.discard, slab.blocks, slab.histogram), (0.1, 5, true));
+    assert_eq!(ball.region, Some(Region::Sphere { centre: [1e-2; 3].into(), radius: 4e-3 }));
 }

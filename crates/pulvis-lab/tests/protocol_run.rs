@@ -20,6 +20,23 @@ fn coarse() -> Scenario {
     tablet(&[("steps_per_contact_time = 50", "steps_per_contact_time = 20")])
 }
 
+/// The same with observers of the whole and of a part.
+fn observed() -> Scenario {
+    let observers = r#"
+[[observers]]
+name = "all"
+histogram = true
+[[observers]]
+name = "inner"
+region = { kind = "sphere", centre = ["20 um", "20 um", "20 um"], radius = "15 um" }
+quantities = ["stress", "coordination", "walls"]
+discard = "0.02 us"
+blocks = 4
+histogram = true
+[output]"#;
+    tablet(&[("steps_per_contact_time = 50", "steps_per_contact_time = 20"), ("\n[output]", observers)])
+}
+
 /// The small tablet whose first stage ends by a rule and is the last.
 fn pressed_until(rule: &str, control: &str) -> Scenario {
     let text = include_str!("protocol_scenarios/tablet.toml");
@@ -128,6 +145,54 @@ fn the_record_of_a_run_is_a_scenario_that_gives_the_same_run() {
     assert_eq!(plain(&again), plain(&scenario));
     run(&again, second.path());
     assert_eq!(bytes(first.path()), bytes(second.path()));
+}
+
+#[test]
+fn observers_agree_with_the_other_columns_their_averages_and_their_distributions() {
+    let folder = tempfile::tempdir().unwrap();
+    let summary = run(&observed(), folder.path());
+    let series = Series::read(folder.path());
+    let column = |name: &str| series.column(name);
+    for (one, other) in [("coordination_all", "coordination"), ("solid_fraction_all", "solid_fraction")] {
+        assert!(column(one).iter().zip(column(other)).all(|(one, other)| *one == other), "{one}");
+    }
+    // The forces on the walls of the pressing stage: those of the engine, whose dashpots see predicted velocities.
+    let inner = series.of_stage("wall_force_x_x-high_inner", 1);
+    let wall = series.of_stage("force_x-high", 1);
+    assert!(inner.iter().zip(&wall).all(|(part, whole)| *part >= 0.0 && *part <= whole.abs() * 1.1 + 1e-9));
+    let average = |observer: &str, stage: &str, quantity: &str| {
+        let of = |average: &&pulvis_lab::protocol::Average| {
+            average.observer == observer && average.stage == stage && average.quantity == quantity
+        };
+        summary.averages.iter().find(of).unwrap().clone()
+    };
+    let pressure = average("inner", "release", "pressure");
+    let rows: Vec<(f64, f64)> =
+        series.of_stage("time", 2).into_iter().zip(series.of_stage("pressure_inner", 2)).collect();
+    let (start, mut seen) = (rows[0].0, rows.clone());
+    seen.retain(|(time, _)| *time >= start + 2e-8);
+    seen.dedup();
+    let seen = &seen[seen.len() % 4..];
+    let mean = seen.iter().map(|(_, value)| value).sum::<f64>() / seen.len() as f64;
+    assert_eq!((pressure.rows, pressure.blocks, pressure.unit), (seen.len(), 4, "Pa"));
+    assert!(mean > 1e7 && (pressure.mean / mean - 1.0).abs() < 1e-12, "{} {mean}", pressure.mean);
+    assert!(pressure.standard_error.is_some_and(|error| error > 0.0 && error < mean));
+    let text = fs::read_to_string(folder.path().join("averages.json")).unwrap();
+    assert!(text.contains("\"corrected_coordination\"") && text.contains("\"inner\""), "{text}");
+    for stage in 1..=3 {
+        let file = folder.path().join(format!("forces_all.stage-{stage}.csv"));
+        let table = fs::read_to_string(file).unwrap();
+        let bins: Vec<Vec<f64>> = table
+            .lines()
+            .skip(1)
+            .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+            .collect();
+        let sum = |place: usize| bins.iter().map(|bin| bin[place]).sum::<f64>();
+        let contacts = *series.of_stage("contacts_all", stage).last().unwrap();
+        assert!(bins.len() > 10 && contacts > 50.0 && sum(2) == contacts, "{contacts} {}", sum(2));
+        assert!((sum(3) * 0.1 - 1.0).abs() < 1e-12, "densities integrate to one");
+        assert!(bins.iter().all(|bin| (bin[1] - bin[0] - 0.1).abs() < 1e-9));
+    }
 }
 
 #[test]

@@ -3,11 +3,13 @@
 //! This crate knows no engine and no file. Scenarios are read into its types, and the engine gets what
 //! comes out of them.
 
+mod gas;
 mod gaussian;
 mod lattice;
 mod radius;
 mod random;
 
+pub use gas::GasVelocities;
 pub use gaussian::gaussian_vector;
 pub use lattice::Lattice;
 pub use radius::{InvalidDistribution, LEAST_SHARE, RadiusDistribution};

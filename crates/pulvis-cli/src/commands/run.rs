@@ -8,7 +8,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use pulvis_core::InstructionSet;
-use pulvis_lab::protocol::{PictureOptions, Progress, RunOptions, RunSummary, load_scenario, resume, run};
+use pulvis_io::table::significant;
+use pulvis_lab::protocol::{
+    Average, PictureOptions, Progress, RunOptions, RunSummary, load_scenario, resume, run,
+};
 
 use super::allow::Allowed;
 use super::picture_file::Resolution;
@@ -121,10 +124,14 @@ fn describe(summary: &RunSummary) -> String {
         "energy ledger: relative closing error {:.1e} at the end, {:.1e} at most\n",
         summary.energy_error, summary.energy_error_max
     );
+    text += &averages(&summary.averages);
     text += &format!("written to {}:\n", summary.folder.display());
     text += "  run.toml, timeseries.csv";
     if summary.folder.join("series.pvd").exists() {
         text += ", series.pvd (ParaView)";
+    }
+    if !summary.averages.is_empty() {
+        text += ", averages.json";
     }
     for picture in &summary.pictures {
         if let Some(name) = picture.file_name() {
@@ -136,4 +143,36 @@ fn describe(summary: &RunSummary) -> String {
         text += &format!("go on with `pulvis run --resume {}`\n", summary.folder.display());
     }
     text
+}
+
+/// What is told of averages; all of them are in a file.
+const TOLD: [&str; 6] = [
+    "pressure",
+    "deviatoric_stress",
+    "solid_fraction",
+    "coordination",
+    "corrected_coordination",
+    "granular_temperature",
+];
+
+/// The most important averages, a line for each observer and stage.
+fn averages(averages: &[Average]) -> String {
+    let mut text = String::new();
+    let mut before = None;
+    let told = averages.iter().filter(|average| TOLD.contains(&average.quantity.as_str()));
+    for average in told.filter(|average| average.mean.is_finite()) {
+        let place = (&average.observer, &average.stage);
+        if before != Some(place) {
+            let end = if before.is_some() { "\n" } else { "" };
+            text += &format!("{end}{} in stage {}: ", average.observer, average.stage);
+        } else {
+            text += ", ";
+        }
+        before = Some(place);
+        let error = average.standard_error.map(|error| format!(" ± {}", significant(error, 2)));
+        let unit = if average.unit == "1" { String::new() } else { format!(" {}", average.unit) };
+        let name = average.quantity.replace('_', " ");
+        text += &format!("{name} {}{}{unit}", significant(average.mean, 5), error.unwrap_or_default());
+    }
+    if before.is_some() { text + "\n" } else { text }
 }

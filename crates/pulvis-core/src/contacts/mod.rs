@@ -18,6 +18,7 @@ mod view;
 
 pub(crate) use bonds::BrokenBonds;
 pub use bonds::{BondCount, BrokenBond};
+pub(crate) use chunk::Chunk;
 pub(crate) use force_pass::Sweep;
 pub use interactions::Interactions;
 pub(crate) use kernel::{Advance, KinematicColumns};

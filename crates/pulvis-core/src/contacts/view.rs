@@ -61,9 +61,10 @@ pub(crate) struct Views<'a> {
     pub(crate) walls: &'a [WallNow],
 }
 
-/// Calls `see` with every contact of a group that acts. The forces are computed again from a copy of the memory, over a
-/// step of zero duration, so that the contacts do not change.
-pub(crate) fn view_contacts(views: Views<'_>, see: &mut dyn FnMut(&ContactView<'_>)) {
+/// Calls `see` with every contact of a group that acts, and the rows of its bodies; of a wall the second one means
+/// nothing. The forces are computed again from a copy of the memory, over a step of zero duration, so that the contacts do
+/// not change.
+pub(crate) fn view_contacts(views: Views<'_>, see: &mut dyn FnMut(&ContactView<'_>, [usize; 2])) {
     let group = views.group;
     let (mut memory, mut after) = (Vec::new(), Vec::new());
     for block in (0..group.rows.len()).filter(|&block| group.active[block]) {
@@ -72,7 +73,8 @@ pub(crate) fn view_contacts(views: Views<'_>, see: &mut dyn FnMut(&ContactView<'
             memory.extend(group.columns(block).iter().map(|column| column.0[lane]));
             after.clone_from(&memory);
             if let Some(view) = views.look(block, lane, &memory, &mut after) {
-                see(&view);
+                let rows = [group.first_row(block, lane), group.second_row(block, lane)];
+                see(&view, rows.map(|row| row as usize));
             }
         }
     }

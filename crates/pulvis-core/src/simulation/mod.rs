@@ -8,6 +8,7 @@ mod errors;
 mod insertion;
 mod limits;
 mod lists;
+mod observation;
 mod observe;
 mod state;
 mod steps;

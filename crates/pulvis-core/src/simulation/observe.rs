@@ -3,7 +3,7 @@
 use pulvis_math::max_or_nan;
 
 use super::Simulation;
-use crate::contacts::{BondCount, ContactTotals, ContactView, Views, view_contacts};
+use crate::contacts::{BondCount, Chunk, ContactTotals, ContactView, Views, view_contacts};
 use crate::ledger::Ledger;
 use crate::walls::WallNow;
 use pulvis_boundary::Background;
@@ -87,12 +87,47 @@ impl Simulation {
         self.contacts.totals()
     }
 
-    /// Hands every contact that acts to `see`, pairs first, then walls.
+    /// Hands every contact that acts to `see`, chunk by chunk, in each chunk pairs first, then walls.
     pub fn for_each_contact(&self, see: &mut dyn FnMut(&ContactView)) {
         let walls = self.walls_at_rest();
-        for group in self.contacts.groups() {
+        for chunk in self.contacts.chunks() {
+            self.view_chunk(chunk, &walls, &mut |contact, _| see(contact));
+        }
+    }
+
+    /// Hands every contact that acts to `see`, with what is gathered of its chunk, and answers with that of every chunk. The
+    /// threads share the chunks; contacts and chunks come in the order of [`for_each_contact`](Self::for_each_contact)
+    /// for any number of them.
+    pub fn gather_contacts<T: Default + Send + Sync>(
+        &self,
+        see: impl Fn(&mut T, &ContactView<'_>) + Sync,
+    ) -> Vec<T> {
+        self.gather_contacts_of_rows(|gathered, contact, _| see(gathered, contact))
+    }
+
+    /// The same with the rows of the bodies; of a wall the second one means nothing.
+    pub(super) fn gather_contacts_of_rows<T: Default + Send + Sync>(
+        &self,
+        see: impl Fn(&mut T, &ContactView<'_>, [usize; 2]) + Sync,
+    ) -> Vec<T> {
+        let (walls, chunks) = (self.walls_at_rest(), self.contacts.chunks());
+        let mut parts: Vec<T> = Vec::new();
+        parts.resize_with(chunks.len(), T::default);
+        self.pool.for_each(&mut parts, |number, part| {
+            self.view_chunk(&chunks[number], &walls, &mut |contact, rows| see(part, contact, rows));
+        });
+        parts
+    }
+
+    fn view_chunk(
+        &self,
+        chunk: &Chunk,
+        walls: &[WallNow],
+        see: &mut dyn FnMut(&ContactView<'_>, [usize; 2]),
+    ) {
+        for group in &chunk.groups {
             let (particles, images) = (&self.particles, self.domain.images());
-            view_contacts(Views { group, particles, images, walls: &walls }, see);
+            view_contacts(Views { group, particles, images, walls }, see);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Experiment;
 use super::data::{FigureData, chosen};
+use super::formula::{Formula, needed, read_formula};
 use crate::context::Reported;
 use crate::list::List;
 use crate::problem::Problem;
@@ -49,6 +50,8 @@ pub struct Measure {
     pub cycles: Option<[f64; 2]>,
     /// Rows only in which a column lies between two numbers.
     pub within: Option<Within>,
+    /// The closed form that y is divided by, for those values that need one.
+    pub formula: Option<Formula>,
 }
 
 /// Rows in which a column lies between two numbers.
@@ -89,13 +92,15 @@ pub enum Value {
     LoopArea,
     /// How much y differs between the ends of cycles, as means over the last tenth of each, over its range in the stage.
     Drift,
+    /// The mean of y over the closed form at x.
+    OverFormula,
     /// The largest of the ratios of the largest y of a cycle to that of the cycle before.
     Growth,
 }
 
 impl Value {
     /// Names in a figure's file.
-    const NAMED: [(&'static str, Self); 14] = [
+    const NAMED: [(&'static str, Self); 15] = [
         ("first", Self::First),
         ("last", Self::Last),
         ("minimum", Self::Minimum),
@@ -110,6 +115,7 @@ impl Value {
         ("loop-area", Self::LoopArea),
         ("drift", Self::Drift),
         ("growth", Self::Growth),
+        ("over-formula", Self::OverFormula),
     ];
 
     /// Whether it compares whole cycles.
@@ -188,6 +194,7 @@ fn read_measure(
     let cycles = table.optional("cycles", ends()).map(|ends| ends.as_deref().and_then(pair));
     let within = table.optional_table("within").and_then(|within| within.map(read_within).transpose());
     let stage = table.optional("stage", Text);
+    let formula = read_formula(table);
     let index = index?;
     let Some(FigureData { experiment: Experiment::Runs(runs), name, .. }) = data.get(index) else {
         return Err(table.refuse("data", Problem::rule("no run", "data whose file has [[stages]]")));
@@ -205,7 +212,9 @@ fn read_measure(
         return Err(table.refuse(if cycles.is_some() { "cycles" } else { "value" }, problem));
     }
     let within = within?.or(base.and_then(|base| base.within.clone()));
-    Ok(Measure { data: index, value, x: x?, y: y?, stage, cycles, within })
+    let formula = formula?.or(base.and_then(|base| base.formula));
+    let formula = needed(table, formula, "value", value == Value::OverFormula)?;
+    Ok(Measure { data: index, value, x: x?, y: y?, stage, cycles, within, formula })
 }
 
 /// The index of the stage that is named; without a name that of the only one, or `default`.

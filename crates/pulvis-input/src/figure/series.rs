@@ -2,6 +2,7 @@
 
 use super::axis::FigureAxis;
 use super::data::{FigureData, chosen, contact};
+use super::formula::{Formula, needed, read_formula};
 use super::of_run::{OfRun, read_of_run};
 use super::quantity::{Family, Quantity};
 use super::reference::{ReferenceTable, read_reference};
@@ -52,6 +53,8 @@ pub enum Show {
     Reference(ReferenceTable),
     /// The time series of a run.
     Run(OfRun),
+    /// A closed form, over the times of a run.
+    Formula(Formula),
 }
 
 /// A curve of a panel, or one for each contact or collision that fits.
@@ -73,7 +76,7 @@ pub struct FigureSeries {
     pub in_legend: bool,
 }
 
-const SHOWN: [&str; 13] = [
+const SHOWN: [&str; 14] = [
     "theory",
     "slow",
     "plastic",
@@ -87,6 +90,7 @@ const SHOWN: [&str; 13] = [
     "searched-limits",
     "reference",
     "run",
+    "formula",
 ];
 
 /// The family that a piece of data has, if a quantity of the name is in it.
@@ -112,7 +116,9 @@ pub(super) fn read_series(
     let (index, name) = match (index, name) {
         (Ok(index), Ok(name)) => (index, name),
         (Err(reported), _) | (_, Err(reported)) => {
-            for key in ["contact", "at", "file", "y", "variant", "stage", "cycles", "arrows", "thick"] {
+            for key in
+                ["contact", "at", "file", "y", "variant", "stage", "cycles", "arrows", "thick", "formula"]
+            {
                 let _ = table.value(key);
             }
             table.finish();
@@ -127,6 +133,8 @@ pub(super) fn read_series(
     let contact = contact(&mut table, one);
     let case = read_case(&mut table, one);
     let y = read_y(&mut table, family, axis);
+    let formula =
+        read_formula(&mut table).and_then(|formula| needed(&table, formula, "show", name == "formula"));
     let show = match name {
         "theory" => Ok(Show::Theory),
         "slow" => Ok(Show::Approximation(Approximation::Slow)),
@@ -140,10 +148,17 @@ pub(super) fn read_series(
         "limits" => Ok(Show::Limits),
         "searched-limits" => Ok(Show::SearchedLimits),
         "run" => read_of_run(&mut table, one, variants).map(Show::Run),
+        // It is there: `needed` has made sure.
+        "formula" => formula.and_then(|formula| {
+            formula.map(Show::Formula).ok_or_else(|| table.refuse("", Problem::rule("no formula", "one")))
+        }),
         _ => read_reference(&mut table, "file", around).map(Show::Reference),
     };
-    if matches!(&show, Ok(show) if matches!(show, Show::Run(_)) != (family == Family::Run)) {
-        let expected = if family == Family::Run { "\"run\"" } else { "another word" };
+    let of_run = |show: &Show| matches!(show, Show::Run(_) | Show::Formula(_));
+    let of_any = |show: &Show| matches!(show, Show::Reference(_)) && family == Family::Run;
+    if matches!(&show, Ok(show) if of_run(show) != (family == Family::Run) && !of_any(show)) {
+        let expected =
+            if family == Family::Run { "\"run\", \"formula\" or \"reference\"" } else { "another word" };
         let found = if family == Family::Run { "this is the time series of a run" } else { "this is no run" };
         return Err(table.refuse("show", Problem::rule(found, expected)));
     }
@@ -159,6 +174,7 @@ pub(super) fn read_series(
         return Err(table.refuse("show", problem));
     }
     table.finish();
+    formula?;
     Ok(FigureSeries {
         data: index,
         show: show?,

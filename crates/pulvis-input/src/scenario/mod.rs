@@ -42,12 +42,13 @@ mod controls;
 mod domain;
 mod limits;
 mod materials;
+mod observers;
 mod output;
 mod particles;
 mod placement;
 mod points;
 mod radius;
-mod removal;
+mod region;
 mod resolved;
 
 mod stages;
@@ -68,6 +69,7 @@ pub use contacts::Contact;
 pub use controls::WallControl;
 pub use limits::Limits;
 pub use materials::Material;
+pub use observers::{ObservedQuantity, Observer};
 pub use output::{CheckpointPlan, Dimensionless, Interval, OutputPlan, Snapshots};
 pub use particles::{ParticleGroup, VelocityPlan};
 pub use points::PointsError;
@@ -76,7 +78,7 @@ pub use pulvis_boundary::{
     Background, Cuboid, Cylinder, CylinderSide, Domain, Plane, Region, TemperatureProgram, WallMotion,
     WallShape,
 };
-pub use pulvis_packing::{Lattice, RadiusDistribution};
+pub use pulvis_packing::{GasVelocities, Lattice, RadiusDistribution};
 pub use stages::Stage;
 pub use start::StartFrom;
 pub use time::TimeStep;
@@ -125,6 +127,8 @@ pub struct Scenario {
     pub allow: Vec<Refusal>,
     /// What stops the run.
     pub limits: Limits,
+    /// What is measured of the sample and its parts.
+    pub observers: Vec<Observer>,
     /// What is written.
     pub output: OutputPlan,
 }

@@ -10,10 +10,10 @@ use crate::list::Vector;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use crate::shape::Integer;
+use crate::shape::{Boolean, Integer};
 use pulvis_boundary::Cuboid;
 use pulvis_math::{Dimension, Vector3, elementary};
-use pulvis_packing::RadiusDistribution;
+use pulvis_packing::{GasVelocities, RadiusDistribution};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -39,8 +39,8 @@ pub struct ParticleGroup {
 pub struct VelocityPlan {
     /// Mean velocity [m/s]; zero where the file of the arrangement gives velocities.
     pub mean: Vector3,
-    /// Standard deviation of each component, Gaussian [m/s].
-    pub standard_deviation: f64,
+    /// What is added at random: Gaussian components; momentum and temperature are those of the group.
+    pub random: GasVelocities,
     /// Angular velocity of every particle [rad/s].
     pub angular_velocity: Vector3,
 }
@@ -110,6 +110,12 @@ fn read_group(
         (Ok(count), Ok(arrangement)) => fitting_count(&table, arrangement, count),
         (Err(reported), _) | (_, &Err(reported)) => Err(reported),
     };
+    if let (Ok(1), Ok(VelocityPlan { random, .. })) = (&count, &velocity)
+        && (random.zero_momentum || random.exact_temperature)
+    {
+        let found = "a single particle without momentum does not move";
+        return Err(table.refuse("velocity", Problem::rule(found, "a gas of several particles")));
+    }
     let radius = match (radius, &arrangement) {
         (Ok(radius), Ok(arrangement)) => fitting_radius(&table, arrangement, radius),
         (Err(reported), _) | (_, &Err(reported)) => Err(reported),
@@ -220,6 +226,8 @@ fn read_velocity(
     let mean = table.optional("mean", Vector::of(Dimension::VELOCITY));
     let standard_deviation =
         table.optional("standard_deviation", QuantityRule::of(Dimension::VELOCITY).at_least(0.0));
+    let zero_momentum = table.or("zero_momentum", Boolean, false);
+    let exact_temperature = table.or("exact_temperature", Boolean, false);
     let angular_velocity = table.or("spin", Vector::of(Dimension::RATE), [0.0; 3]);
     let in_file = match arrangement {
         Some(Arrangement::File { grains, .. }) => grains.iter().all(|grain| grain.velocity.is_some()),
@@ -237,10 +245,21 @@ fn read_velocity(
         Ok(Some(_)) if in_file => Err(refused("standard_deviation")),
         standard_deviation => standard_deviation,
     };
+    let random = standard_deviation.and_then(|standard_deviation| {
+        let standard_deviation = standard_deviation.unwrap_or(0.0);
+        let (zero_momentum, exact_temperature) = (zero_momentum?, exact_temperature?);
+        for (key, wanted) in [("zero_momentum", zero_momentum), ("exact_temperature", exact_temperature)] {
+            if wanted && standard_deviation == 0.0 {
+                let found = "nothing of the velocities is random";
+                return Err(table.refuse(key, Problem::rule(found, "a `standard_deviation` beside it")));
+            }
+        }
+        Ok(GasVelocities { standard_deviation, zero_momentum, exact_temperature })
+    });
     table.finish();
     Ok(VelocityPlan {
         mean: mean?.unwrap_or_default().into(),
-        standard_deviation: standard_deviation?.unwrap_or(0.0),
+        random: random?,
         angular_velocity: angular_velocity?.into(),
     })
 }

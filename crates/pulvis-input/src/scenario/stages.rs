@@ -4,7 +4,7 @@ use super::axis::{Axis, BoxFace, Side};
 use super::contacts::Contact;
 use super::controls::{WallControl, read_control};
 use super::particles::no_tables;
-use super::removal::read_removal;
+use super::region::read_region;
 use super::switches::{Switch, read_switches};
 use super::time::{TimeStep, read_time};
 use super::until::{StopRules, read_until};
@@ -90,7 +90,7 @@ fn read_stage(
         Ok(name)
     });
     let until = read_until(&mut table);
-    let remove = read_removal(&mut table);
+    let remove = read_region(&mut table, "remove");
     let form_bonds = read_formation(&mut table);
     let controls = read_controls(&mut table, walls, now);
     let switches = read_switches(&mut table);

@@ -6,6 +6,7 @@ use super::contacts::{Contact, MaterialUse, read_contacts};
 use super::domain::{read_background, read_domain};
 use super::limits::read_limits;
 use super::materials::{Material, read_materials};
+use super::observers::{check_discards, durations, read_observers};
 use super::output::read_output;
 use super::particles::{ParticleGroup, PlacedGroup, read_particles};
 use super::placement::check_placement;
@@ -27,7 +28,7 @@ use pulvis_contact::bond::Form;
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
-const KEYS: [&str; 17] = [
+const KEYS: [&str; 18] = [
     "title",
     "start_from",
     "seed",
@@ -44,6 +45,7 @@ const KEYS: [&str; 17] = [
     "time",
     "stages",
     "limits",
+    "observers",
     "output",
 ];
 
@@ -88,6 +90,12 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     };
     let names: Option<Vec<&str>> =
         stages.as_ref().ok().map(|stages| stages.iter().map(|stage| stage.name.as_str()).collect());
+    let enclosure = walls.as_ref().ok().and_then(|walls| walls.enclosure.as_ref());
+    let observers = read_observers(&mut root, known, enclosure).and_then(|observers| {
+        let durations = stages.as_ref().map_or_else(|_| vec![None], |stages| durations(stages));
+        check_discards(&root, &observers, &durations)?;
+        Ok(observers)
+    });
     let output = read_output(&mut root, file, names.as_deref());
     let bodies = walls.and_then(|walls| {
         let groups = groups?;
@@ -124,6 +132,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         stages: Vec::new(),
         allow: allow?,
         limits: limits?,
+        observers: observers?,
         output: output?,
     };
     Ok((scenario, stages?, used.unwrap_or_default()))

@@ -13,10 +13,12 @@ use pulvis_io::IoError;
 use pulvis_io::checkpoint::write_text;
 use pulvis_io::name_of_temporary;
 
+use super::averages::AVERAGES;
 use super::checkpoint::is_checkpoint;
 use super::error::{PrepareError, RunError};
 use super::explain::ALARM;
 use super::lock::{LOCK, Lock, lock};
+use super::observers::is_histogram;
 
 /// The record of the files of a run.
 pub(super) const LIST: &str = "run.files";
@@ -233,8 +235,12 @@ fn may_be_written(name: &str) -> bool {
         Some((name, "png" | "svg")) => ["energies", "stress", "force_displacement"].contains(&name),
         _ => false,
     };
-    let others = [RECORD, LIST, ALARM, "timeseries.csv", "series.pvd", "particles.png"];
-    is_checkpoint(name) || is_picture() || others.contains(&name) || numbered() == Some(true)
+    let others = [RECORD, LIST, ALARM, AVERAGES, "timeseries.csv", "series.pvd", "particles.png"];
+    is_checkpoint(name)
+        || is_histogram(name)
+        || is_picture()
+        || others.contains(&name)
+        || numbered() == Some(true)
 }
 
 /// Whether the next folder above that exists lets one be made in it, as far as can be told without trying.

@@ -73,35 +73,60 @@ impl Contacts {
     }
 
     fn of(simulation: &Simulation) -> Self {
-        let mut contacts = Self::default();
-        simulation.for_each_contact(&mut |contact| {
-            contacts.ends.push([contact.centre_first.to_array(), contact.centre_second.to_array()]);
-            contacts.first.push(i64::from(contact.first));
-            contacts.second.push(match contact.second {
-                ContactPartner::Particle(id) => i64::from(id),
-                ContactPartner::Wall(place) => -1 - place as i64,
-            });
-            contacts.force.push(contact.force.to_array());
-            contacts.normal_force.push(contact.normal_force);
-            contacts.overlap.push(contact.overlap);
-            contacts.remember(contact);
-        });
-        for (_, values) in &mut contacts.memory {
-            values.resize(contacts.first.len(), f64::NAN);
+        let parts = simulation.gather_contacts(Self::take_in);
+        let mut all = Self::default();
+        parts.into_iter().for_each(|part| all.append(part));
+        for (_, values) in &mut all.memory {
+            values.resize(all.first.len(), f64::NAN);
         }
-        contacts
+        all
+    }
+
+    fn take_in(&mut self, contact: &ContactView<'_>) {
+        self.ends.push([contact.centre_first.to_array(), contact.centre_second.to_array()]);
+        self.first.push(i64::from(contact.first));
+        self.second.push(match contact.second {
+            ContactPartner::Particle(id) => i64::from(id),
+            ContactPartner::Wall(place) => -1 - place as i64,
+        });
+        self.force.push(contact.force.to_array());
+        self.normal_force.push(contact.normal_force);
+        self.overlap.push(contact.overlap);
+        self.remember(contact);
+    }
+
+    /// Adds the contacts of a later part.
+    fn append(&mut self, part: Self) {
+        let before = self.first.len();
+        let Self { ends, first, second, force, normal_force, overlap, memory } = part;
+        self.ends.extend(ends);
+        self.first.extend(first);
+        self.second.extend(second);
+        self.force.extend(force);
+        self.normal_force.extend(normal_force);
+        self.overlap.extend(overlap);
+        for (name, part) in memory {
+            let values = self.memory_of(name);
+            values.resize(before, f64::NAN);
+            values.extend(part);
+        }
+    }
+
+    /// The column of memory of this name.
+    fn memory_of(&mut self, name: &'static str) -> &mut Vec<f64> {
+        let known = self.memory.iter().position(|(known, _)| *known == name);
+        let index = known.unwrap_or_else(|| {
+            self.memory.push((name, Vec::new()));
+            self.memory.len() - 1
+        });
+        &mut self.memory[index].1
     }
 
     fn remember(&mut self, contact: &ContactView<'_>) {
         let before = self.first.len() - 1;
         for (name, &value) in contact.layout.names().zip(contact.memory) {
             let name = name.split(' ').next().unwrap_or(name);
-            let known = self.memory.iter().position(|(known, _)| *known == name);
-            let index = known.unwrap_or_else(|| {
-                self.memory.push((name, Vec::new()));
-                self.memory.len() - 1
-            });
-            let values = &mut self.memory[index].1;
+            let values = self.memory_of(name);
             values.resize(before, f64::NAN);
             values.push(value);
         }

@@ -1,9 +1,11 @@
 //! What is measured of a running simulation: one row of the time series.
 
 use pulvis_core::Simulation;
+use pulvis_core::observation::ObservationPlan;
 use pulvis_input::scenario::{Scenario, WallShape};
 
 use super::clusters::{Clusters, clusters};
+use super::observers;
 use super::stage::{length, wall_force, wall_stress};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -15,6 +17,8 @@ pub struct Measure {
     /// Whether any contact of any stage may be bonded.
     bonds: bool,
     scaled: Option<Scaled>,
+    /// What observers look at.
+    observed: ObservationPlan,
 }
 
 /// The reference of dimensionless columns.
@@ -61,6 +65,9 @@ pub fn column_names(scenario: &Scenario) -> Vec<String> {
     if scenario.output.dimensionless.is_some() {
         columns.extend(AXES.iter().flat_map(|axis| [format!("D_{axis}"), format!("F_{axis}")]));
     }
+    for observer in &scenario.observers {
+        columns.extend(observers::columns(scenario, observer).into_iter().map(|observed| observed.column));
+    }
     columns
 }
 
@@ -78,7 +85,9 @@ impl Measure {
             stiffness: plan.stiffness,
             reference: [None; 3],
         });
-        let mut measure = Self { columns: column_names(scenario), bonds: may_bond(scenario), scaled };
+        let (columns, bonds, observed) =
+            (column_names(scenario), may_bond(scenario), observers::plan(scenario));
+        let mut measure = Self { columns, bonds, scaled, observed };
         measure.take_reference(scenario, simulation);
         measure
     }
@@ -93,7 +102,7 @@ impl Measure {
     /// The lengths L0 of the dimensionless displacement, if there is one.
     pub(super) fn reference(&self) -> Option<[Option<f64>; 3]> {
         // What a measurement depends on beside scenario and simulation is part of a checkpoint.
-        let Self { columns: _, bonds: _, scaled } = self;
+        let Self { columns: _, bonds: _, scaled, observed: _ } = self;
         let Scaled { length: _, stiffness: _, reference } = scaled.as_ref()?;
         Some(*reference)
     }
@@ -180,6 +189,9 @@ impl Measure {
                 row.push(displacement.map_or(f64::NAN, |(now, start)| (now - start) / scaled.length));
                 row.push(force.map_or(f64::NAN, |force| force / (scaled.stiffness * scaled.length)));
             }
+        }
+        if !self.observed.regions.is_empty() {
+            row.extend(observers::values(scenario, &self.observed, simulation, lengths));
         }
         row
     }

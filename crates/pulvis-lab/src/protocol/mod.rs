@@ -4,6 +4,7 @@
 //! [`preflight`] says what a run will be like; [`run`] does it and writes its files; [`resume`] goes on with an interrupted one.
 
 mod allow;
+mod averages;
 mod check;
 mod checkpoint;
 mod clusters;
@@ -19,6 +20,7 @@ mod kept_rows;
 mod lock;
 mod measure;
 mod memory;
+mod observers;
 mod outlines;
 mod pace;
 mod packed;
@@ -36,6 +38,7 @@ mod typical;
 mod under_way;
 mod warnings;
 
+pub use averages::Average;
 pub use check::{ContactForecast, Preflight, StageForecast, Sticking, preflight};
 pub use checkpoint::{FindError, checkpoint_files, has_ended};
 pub use disk::DiskForecast;

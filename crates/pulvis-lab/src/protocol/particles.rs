@@ -6,7 +6,7 @@ use pulvis_core::{Domain, MaterialIndex, NamedColumn, Particle};
 use pulvis_input::Problem;
 use pulvis_input::scenario::{Arrangement, Grain, ParticleColumn, ParticleGroup, Scenario};
 use pulvis_math::{Vector3, elementary};
-use pulvis_packing::{Random, gaussian_vector, random_positions, random_stream};
+use pulvis_packing::{Random, random_positions, random_stream};
 
 use super::error::PrepareError;
 
@@ -18,13 +18,16 @@ pub(super) fn generate(scenario: &Scenario, domain: &Domain) -> Result<Vec<Parti
         let radii = radii(scenario, group, place, &mut random)?;
         let centres = centres(scenario, group, place, &radii, domain, &particles, &mut random)?;
         let density = scenario.materials[group.material].density.unwrap_or(f64::NAN);
+        let mass = |radius: &f64| 4.0 / 3.0 * PI * elementary::powi(*radius, 3) * density;
+        let masses: Vec<f64> = radii.iter().map(mass).collect();
+        let gas = group.velocity.random.draw(&masses, &mut random);
         for (number, (radius, position)) in radii.into_iter().zip(centres).enumerate() {
             particles.push(Particle {
                 material: group.material as MaterialIndex,
                 radius,
-                mass: 4.0 / 3.0 * PI * elementary::powi(radius, 3) * density,
+                mass: masses[number],
                 position,
-                velocity: velocity(group, number, &mut random),
+                velocity: mean_velocity(group, number) + gas[number],
                 angular_velocity: group.velocity.angular_velocity,
             });
         }
@@ -100,12 +103,8 @@ fn grains(group: &ParticleGroup) -> &[Grain] {
     }
 }
 
-fn velocity(group: &ParticleGroup, number: usize, random: &mut Random) -> Vector3 {
-    let plan = &group.velocity;
+/// The velocity of a particle before anything random is added.
+fn mean_velocity(group: &ParticleGroup, number: usize) -> Vector3 {
     let from_file = grains(group).get(number).and_then(|grain| grain.velocity);
-    let mut velocity = from_file.unwrap_or(Vector3::zero()) + plan.mean;
-    if plan.standard_deviation > 0.0 {
-        velocity += gaussian_vector(random) * plan.standard_deviation;
-    }
-    velocity
+    from_file.unwrap_or(Vector3::zero()) + group.velocity.mean
 }

@@ -7,6 +7,7 @@ use pulvis_core::{InstructionSet, Simulation};
 use pulvis_input::scenario::Scenario;
 use pulvis_io::checkpoint::{CheckpointError, peek_header, write_text};
 
+use super::averages::Average;
 use super::check::stages;
 use super::checkpoint::{Found, ResultRecord, checkpoint_files, find};
 use super::disk::refuse_full_disk;
@@ -119,6 +120,8 @@ pub struct RunSummary {
     pub energy_error: f64,
     /// The largest relative closing error among all rows of the time series [1].
     pub energy_error_max: f64,
+    /// Averages of what observers have seen, stage by stage.
+    pub averages: Vec<Average>,
     /// Pictures that were drawn.
     pub pictures: Vec<PathBuf>,
     /// Whether a checkpoint was written from which the run can go on.

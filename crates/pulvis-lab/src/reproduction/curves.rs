@@ -9,7 +9,7 @@ use crate::collision::{Regime, SweepPoint, case_label, closed_form, fine_cases};
 use crate::probe::ProbeCurve;
 use pulvis_input::collision::{CollisionCase, CollisionScenario};
 use pulvis_input::figure::{
-    Approximation, Family, FigureAxis, FigurePanel, FigureSeries, ReferenceTable, Show,
+    Approximation, Family, FigureAxis, FigurePanel, FigureSeries, Formula, ReferenceTable, Show,
 };
 use pulvis_io::plot::SeriesStyle;
 
@@ -18,6 +18,10 @@ pub(super) type Identity = (usize, usize, Option<usize>, &'static str);
 
 /// In place of data or contact, where curves show limits.
 const LIMITS: usize = usize::MAX;
+
+/// In place of a variant, where curves show a closed form or a table beside runs.
+const FORMULA: usize = usize::MAX - 1;
+const TABLE: usize = usize::MAX - 2;
 
 /// A curve with all that a chart needs.
 pub(super) struct Curve {
@@ -111,7 +115,7 @@ impl Sweep<'_> {
                     let wanted = if *sticks { Regime::Stick } else { Regime::Rebound };
                     self.computed(contact, self.engine, |regime| regime == wanted)
                 }
-                Show::Limits | Show::SearchedLimits | Show::Run(_) => Vec::new(),
+                Show::Limits | Show::SearchedLimits | Show::Run(_) | Show::Formula(_) => Vec::new(),
                 Show::Reference(table) => {
                     let first = self.scenario.cases.iter().find(|case| case.contact_number == contact);
                     self.reference(table, first)
@@ -262,8 +266,13 @@ fn of_runs(
     of_data: &OfData<'_>,
     runs: &[FinishedRun<'_>],
 ) -> Result<Vec<Curve>, ReproductionError> {
-    let Show::Run(show) = &series.show else { return Ok(Vec::new()) };
     let y = series.y.unwrap_or(panel.y.quantity).name;
+    let show = match &series.show {
+        Show::Run(show) => show,
+        Show::Formula(formula) => return of_formula(panel, series, formula, runs),
+        Show::Reference(table) => return Ok(vec![of_table(panel, series, table, y)]),
+        _ => return Ok(Vec::new()),
+    };
     let mut curves = Vec::new();
     let shown = || runs.iter().filter(|run| show.variant.is_none_or(|only| only == run.variant));
     let several = shown().count() > 1;
@@ -283,6 +292,44 @@ fn of_runs(
     Ok(curves)
 }
 
+/// Points of a closed form.
+const FORMULA_POINTS: usize = 200;
+
+/// A closed form, from its start to the last row of any run.
+fn of_formula(
+    panel: &FigurePanel,
+    series: &FigureSeries,
+    formula: &Formula,
+    runs: &[FinishedRun<'_>],
+) -> Result<Vec<Curve>, ReproductionError> {
+    let mut ends = [formula.start; 2];
+    for run in runs {
+        let across = run.column(panel.x.quantity.name)?;
+        for row in run.rows(None) {
+            ends[1] = ends[1].max(row.at(across));
+        }
+    }
+    let point = |number: usize| {
+        // Closer at the start, where it changes most.
+        let share = number as f64 / FORMULA_POINTS as f64;
+        let x = ends[0] + (ends[1] - ends[0]) * share * share;
+        (panel.x.factor * x, panel.y.factor * formula.at(x))
+    };
+    let identity = (series.data, FORMULA, None, panel.y.quantity.name);
+    let look = method(&series.show, true);
+    Ok(vec![Curve::plain(identity, None, look, (0..=FORMULA_POINTS).map(point).collect())])
+}
+
+/// A table beside runs.
+fn of_table(panel: &FigurePanel, series: &FigureSeries, table: &ReferenceTable, y: &'static str) -> Curve {
+    let on = |name: &str, axis: &FigureAxis| {
+        let column = table.column(name).unwrap_or_default();
+        column.into_iter().map(|value| axis.factor * value).collect::<Vec<f64>>()
+    };
+    let points = on(panel.x.quantity.name, &panel.x).into_iter().zip(on(y, &panel.y)).collect();
+    Curve::plain((series.data, TABLE, None, y), None, method(&series.show, true), points)
+}
+
 /// What a series is in words, and how it looks.
 fn method(show: &Show, course: bool) -> (&'static str, SeriesStyle) {
     match show {
@@ -300,5 +347,6 @@ fn method(show: &Show, course: bool) -> (&'static str, SeriesStyle) {
         Show::SearchedLimits => ("searched by collisions", SeriesStyle::Rings),
         Show::Reference(_) => ("reference", SeriesStyle::Rings),
         Show::Run(_) => ("run", SeriesStyle::Line),
+        Show::Formula(_) => ("closed form", SeriesStyle::Line),
     }
 }

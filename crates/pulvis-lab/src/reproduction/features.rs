@@ -27,6 +27,11 @@ impl SeenFeature {
         (squares / (count - 1.0)).sqrt()
     }
 
+    /// The standard error of the mean; not a number where there is one variant only.
+    pub fn standard_error(&self) -> f64 {
+        self.deviation() / (self.values.len() as f64).sqrt()
+    }
+
     /// Whether a value lies between the bounds; what is no number does not.
     pub fn allows(&self, value: f64) -> bool {
         value >= self.feature.least && value <= self.feature.most
@@ -77,6 +82,10 @@ fn measure(measure: &Measure, run: &FinishedRun<'_>) -> Result<f64, Reproduction
             _ => cycles.growth(),
         });
     }
+    if let Some(formula) = measure.formula {
+        let ratios = rows.iter().map(|row| row.at(y) / formula.at(row.at(x)));
+        return Ok(ratios.sum::<f64>() / rows.len() as f64);
+    }
     Ok(of_rows(measure.value, &rows, x, y))
 }
 
@@ -99,7 +108,7 @@ fn of_rows(value: Value, rows: &[Phased<'_>], x: usize, y: usize) -> f64 {
         Value::Zero => zero(rows, x, y),
         Value::Slope => line(rows, x, y).slope,
         Value::Straightness => line(rows, x, y).straightness,
-        Value::LoopArea | Value::Drift | Value::Growth => nothing,
+        Value::LoopArea | Value::Drift | Value::Growth | Value::OverFormula => nothing,
     }
 }
 

@@ -202,7 +202,7 @@ pub(super) fn feature_table(
     let several = variants.len() > 1;
     let mut columns = vec!["feature".to_owned(), "what".to_owned(), "asked for".to_owned()];
     columns.extend(variants.iter().map(name));
-    columns.extend(["mean", "spread"].into_iter().filter(|_| several).map(str::to_owned));
+    columns.extend(["mean", "spread", "standard error"].into_iter().filter(|_| several).map(str::to_owned));
     columns.extend(["verdict", "why these bounds"].map(str::to_owned));
     let mut table = Table::new(columns);
     for one in seen {
@@ -215,11 +215,9 @@ pub(super) fn feature_table(
         row.push(Cell::from(bounds(feature)));
         row.extend(variants.iter().map(of_variant));
         if several {
-            let spread = one.deviation();
-            row.extend([
-                Cell::from(one.mean()),
-                if spread.is_nan() { Cell::from("") } else { Cell::from(spread) },
-            ]);
+            let unless_nan = |value: f64| if value.is_nan() { Cell::from("") } else { Cell::from(value) };
+            let [spread, error] = [one.deviation(), one.standard_error()].map(unless_nan);
+            row.extend([Cell::from(one.mean()), spread, error]);
         }
         let verdict = match (one.is_seen(), &feature.known_to_miss) {
             (true, _) => "seen".to_owned(),

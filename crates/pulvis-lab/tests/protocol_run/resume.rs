@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use pulvis_input::scenario::CheckpointPlan;
 use pulvis_lab::protocol::{Ending, RunSummary, load_scenario, resume};
 
-use super::coarse;
 use super::protocol_scenarios::{Series, options, run, run_with, scenario};
+use super::{coarse, observed};
 
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -21,7 +21,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 #[test]
 fn a_run_that_is_stopped_at_one_look_after_the_other_leaves_the_same_files() {
     let [whole, stopped] = [(); 2].map(|()| tempfile::tempdir().unwrap());
-    let mut scenario = coarse();
+    let mut scenario = observed();
     scenario.output.checkpoints = Some(CheckpointPlan { stage_ends: true, ..CheckpointPlan::default() });
     run(&scenario, whole.path());
     let stop = AtomicBool::new(true);

@@ -2,7 +2,8 @@
 
 use super::writer::{Writer, key, list, number, quantity, text, vector};
 use crate::scenario::{
-    Arrangement, BoxFace, Cuboid, ParticleGroup, RadiusDistribution, Scenario, VelocityPlan, Wall, WallShape,
+    Arrangement, BoxFace, Cuboid, GasVelocities, ParticleGroup, RadiusDistribution, Scenario, VelocityPlan,
+    Wall, WallShape,
 };
 use pulvis_math::Dimension;
 
@@ -79,7 +80,7 @@ impl Scenario {
     }
 }
 
-pub(super) fn write_extent(writer: &mut Writer, extent: &Cuboid) {
+pub(in crate::scenario) fn write_extent(writer: &mut Writer, extent: &Cuboid) {
     writer.key("lower", vector(extent.lower, Dimension::LENGTH));
     writer.key("upper", vector(extent.upper, Dimension::LENGTH));
 }
@@ -156,7 +157,10 @@ fn write_velocity(writer: &mut Writer, velocity: &VelocityPlan, group: &Particle
     };
     if !in_file {
         writer.key("mean", vector(velocity.mean, Dimension::VELOCITY));
-        writer.key("standard_deviation", quantity(velocity.standard_deviation, Dimension::VELOCITY));
+        let GasVelocities { standard_deviation, zero_momentum, exact_temperature } = velocity.random;
+        writer.key("standard_deviation", quantity(standard_deviation, Dimension::VELOCITY));
+        writer.key("zero_momentum", zero_momentum.to_string());
+        writer.key("exact_temperature", exact_temperature.to_string());
     }
     writer.key("spin", vector(velocity.angular_velocity, Dimension::RATE));
 }

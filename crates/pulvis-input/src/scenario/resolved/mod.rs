@@ -1,9 +1,10 @@
 //! The resolved scenario, `run.toml`: everything that a run used, with no default left unsaid.
 
-mod bodies;
+pub(super) mod bodies;
 mod stages;
 pub(super) mod writer;
 
+use super::observers::write_observers;
 use super::output::{CheckpointPlan, Interval, OutputPlan, Snapshots};
 use super::start::StartFrom;
 use super::time::TimeStep;
@@ -71,6 +72,7 @@ impl Scenario {
         writer.key("overlap", quantity(self.limits.overlap, Dimension::NONE));
         writer.key("speed", quantity(self.limits.speed, Dimension::VELOCITY));
         write_output(&mut writer, &self.output, &self.stages);
+        write_observers(&mut writer, &self.observers);
         self.write_stages(&mut writer);
         writer.finish()
     }

@@ -1,11 +1,11 @@
 //! Stages of the resolved scenario: what each of them changes.
 
-use super::bodies::write_extent;
-use super::writer::{Writer, key, quantity, text, vector};
+use super::writer::{Writer, key, quantity, text};
 use super::{gravity, key_of_law, law_keys, write_time};
 use crate::scenario::controls::write_control;
+use crate::scenario::region::write_region;
 use crate::scenario::until::write_until;
-use crate::scenario::{Background, Contact, Region, Scenario, Stage, TimeStep};
+use crate::scenario::{Background, Contact, Scenario, Stage, TimeStep};
 use pulvis_math::Dimension;
 
 /// What held before a stage.
@@ -72,19 +72,5 @@ impl Scenario {
             }
         }
         switches
-    }
-}
-
-fn write_region(writer: &mut Writer, region: &Region) {
-    match region {
-        Region::Box(extent) => {
-            writer.key("kind", text("box"));
-            write_extent(writer, extent);
-        }
-        Region::Sphere { centre, radius } => {
-            writer.key("kind", text("sphere"));
-            writer.key("centre", vector(*centre, Dimension::LENGTH));
-            writer.key("radius", quantity(*radius, Dimension::LENGTH));
-        }
     }
 }

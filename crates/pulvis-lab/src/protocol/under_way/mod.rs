@@ -12,12 +12,14 @@ use pulvis_input::scenario::{Scenario, Snapshots as SnapshotPlan, WallControl};
 use pulvis_io::checkpoint::write_text;
 use pulvis_io::table::TimeSeriesWriter;
 
+use super::averages::{self, AVERAGES, Average};
 use super::checkpoint::{Ancestor, Keeper, LATEST, PREVIOUS, stage_file};
 use super::error::RunError;
 use super::explain::{ALARM, AlarmReport, likely_cause};
 use super::folder::OutputFolder;
 use super::kept_rows::KeptRows;
 use super::measure::Measure;
+use super::observers::{histogram, histogram_file};
 use super::pace::{Due, PACE, Pace};
 use super::report::{self, Series};
 use super::run::{PictureOptions, Progress, RunOptions, RunSummary, StageResult, Watch, set_machine};
@@ -197,6 +199,9 @@ impl<'a> Run<'a> {
         };
         self.row(number, &rules)?;
         self.frame()?;
+        if ending != Ending::Interrupted {
+            self.histograms(number)?;
+        }
         if scenario.output.dimensionless.and_then(|scales| scales.reference_stage) == Some(number) {
             self.measure.take_reference(scenario, &self.simulation);
         }
@@ -272,6 +277,25 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Writes the distributions of forces at the end of a stage.
+    fn histograms(&mut self, stage: usize) -> Result<(), RunError> {
+        for observer in self.scenario.observers.iter().filter(|observer| observer.histogram) {
+            let table = histogram(observer, &self.simulation)?;
+            table.write(&self.output.file(&histogram_file(observer, stage))?)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the averages of what observers have seen.
+    fn averages(&mut self) -> Result<Vec<Average>, RunError> {
+        if self.scenario.observers.is_empty() {
+            return Ok(Vec::new());
+        }
+        let averages = averages::averages(self.scenario, self.measure.columns(), self.rows.rows());
+        averages::table(&averages)?.write(&self.output.file(AVERAGES)?)?;
+        Ok(averages)
+    }
+
     fn progress(
         &mut self,
         number: usize,
@@ -317,6 +341,7 @@ impl<'a> Run<'a> {
     fn finish(&mut self, interrupted: Option<StageResult>) -> Result<RunSummary, RunError> {
         self.writer.flush()?;
         let energy_error_max = self.rows.largest_error();
+        let averages = self.averages()?;
         let pictures = self.draw()?;
         if interrupted.is_none() {
             self.end_checkpoint()?;
@@ -331,6 +356,7 @@ impl<'a> Run<'a> {
             wall_clock: self.began.elapsed().as_secs_f64(),
             energy_error: self.simulation.ledger().relative_error(),
             energy_error_max,
+            averages,
             pictures,
             can_be_resumed,
         })

@@ -1,0 +1,130 @@
+//! Parts of space that particles can be picked from, and that can be observed.
+
+mod share;
+#[cfg(test)]
+mod tests;
+
+use pulvis_math::Vector3;
+
+use crate::{Cuboid, Domain};
+
+/// A part of space, its boundary included. All of them are convex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Region {
+    /// A box with faces along the axes; a component may be infinite.
+    Box(Cuboid),
+    /// A sphere.
+    Sphere {
+        /// Centre [m].
+        centre: Vector3,
+        /// Radius [m].
+        radius: f64,
+    },
+    /// A cylinder with flat ends.
+    Cylinder {
+        /// The ends of its axis [m].
+        ends: [Vector3; 2],
+        /// Radius [m].
+        radius: f64,
+    },
+    /// What lies between two planes normal to an axis.
+    Layer {
+        /// The axis: 0, 1, 2 for x, y, z.
+        axis: usize,
+        /// Where the planes cross the axis [m].
+        lower: f64,
+        /// The same of the upper one [m].
+        upper: f64,
+    },
+}
+
+impl Region {
+    /// Whether a position [m], or an image of it in a periodic direction, lies in the region. A position that is NaN
+    /// lies in no region.
+    pub fn contains(&self, position: Vector3, domain: &Domain) -> bool {
+        match *self {
+            Self::Box(Cuboid { lower, upper }) => {
+                (0..3).all(|axis| is_between(position, axis, [lower[axis], upper[axis]], domain))
+            }
+            Self::Layer { axis, lower, upper } => {
+                let is_number = !(position.x.is_nan() || position.y.is_nan() || position.z.is_nan());
+                is_number && is_between(position, axis, [lower, upper], domain)
+            }
+            Self::Sphere { centre, radius } => nearest_image(position - centre, domain).norm() <= radius,
+            Self::Cylinder { ends: [start, end], radius } => {
+                let (axis, middle) = (end - start, (start + end) * 0.5);
+                let apart = nearest_image(position - middle, domain);
+                let along = apart.dot(axis) / axis.norm_squared();
+                along.abs() <= 0.5 && (apart - axis * along).norm() <= radius
+            }
+        }
+    }
+
+    /// The corners of the block with faces along the axes that just holds the region [m]; infinite where it has no end.
+    pub fn bounds(&self) -> [Vector3; 2] {
+        match *self {
+            Self::Box(Cuboid { lower, upper }) => [lower, upper],
+            Self::Sphere { centre, radius } => {
+                let half = Vector3::new(radius, radius, radius);
+                [centre - half, centre + half]
+            }
+            Self::Cylinder { ends: [start, end], radius } => {
+                let axis = (end - start) * (1.0 / (end - start).norm());
+                // Half the extent of a disc normal to the axis.
+                let half = |component: f64| radius * (1.0 - component * component).max(0.0).sqrt();
+                let half = Vector3::new(half(axis.x), half(axis.y), half(axis.z));
+                let corner = |pick: fn(f64, f64) -> f64| {
+                    Vector3::new(pick(start.x, end.x), pick(start.y, end.y), pick(start.z, end.z))
+                };
+                [corner(f64::min) - half, corner(f64::max) + half]
+            }
+            Self::Layer { axis, lower, upper } => {
+                let mut bounds = [f64::NEG_INFINITY, f64::INFINITY].map(|end| Vector3::new(end, end, end));
+                *bounds[0].component_mut(axis) = lower;
+                *bounds[1].component_mut(axis) = upper;
+                bounds
+            }
+        }
+    }
+
+    /// Volume [m³], where directions without an end have these `lengths` [m].
+    pub fn volume(&self, lengths: [f64; 3]) -> f64 {
+        use std::f64::consts::PI;
+        match *self {
+            Self::Sphere { radius, .. } => 4.0 / 3.0 * PI * radius * radius * radius,
+            Self::Cylinder { ends: [start, end], radius } => PI * radius * radius * (end - start).norm(),
+            Self::Box(_) | Self::Layer { .. } => {
+                let [lower, upper] = self.bounds();
+                let edge = |axis: usize| {
+                    let edge = upper[axis] - lower[axis];
+                    if edge.is_finite() { edge } else { lengths[axis] }
+                };
+                edge(0) * edge(1) * edge(2)
+            }
+        }
+    }
+}
+
+/// Whether an image of a position lies between two planes normal to an axis.
+fn is_between(position: Vector3, axis: usize, [lower, upper]: [f64; 2], domain: &Domain) -> bool {
+    let along = position[axis];
+    let along = match domain.period(axis) {
+        // The first image that is not below the lower plane.
+        Some(period) if lower.is_finite() => along + ((lower - along) / period).ceil() * period,
+        Some(_) => f64::NEG_INFINITY,
+        None => along,
+    };
+    // An infinite region takes in every image, wherever the particle is.
+    let is_number = !position[axis].is_nan();
+    is_number && (domain.period(axis).is_some() || lower <= along) && along <= upper
+}
+
+/// The image of a vector [m] that is nearest to zero.
+fn nearest_image(mut apart: Vector3, domain: &Domain) -> Vector3 {
+    for axis in 0..3 {
+        if let Some(period) = domain.period(axis) {
+            *apart.component_mut(axis) -= (apart[axis] / period).round() * period;
+        }
+    }
+    apart
+}
