@@ -23,6 +23,14 @@ impl Region {
     /// lies in no region.
     pub fn contains(&self, position: Vector3, domain: &Domain) -> bool {
         match *self {
+            Self::Box(Cuboid { lower, .. }) if domain.is_tilted() => {
+                // Images along z and y come with shifts: first the image along them that is not below the box.
+                let mut image = position;
+                for axis in [2, 1].into_iter().filter(|&axis| lower[axis].is_finite()) {
+                    image += domain.shift(axis) * domain.turns(lower[axis] - image[axis], axis).ceil();
+                }
+                self.contains(image, &Domain { tilts: [0.0; 3], ..*domain })
+            }
             Self::Box(Cuboid { lower, upper }) => (0..3).all(|axis| {
                 let along = position[axis];
                 let along = match domain.period(axis) {
@@ -39,10 +47,8 @@ impl Region {
             }),
             Self::Sphere { centre, radius } => {
                 let mut apart = position - centre;
-                for axis in 0..3 {
-                    if let Some(period) = domain.period(axis) {
-                        *apart.component_mut(axis) -= (apart[axis] / period).round() * period;
-                    }
+                for axis in [2, 1, 0] {
+                    apart -= domain.shift(axis) * domain.turns(apart[axis], axis).round();
                 }
                 apart.norm() <= radius
             }

@@ -119,7 +119,8 @@ fn ends(
 
 /// Lower and upper end of the box along an axis, as far as they are there [m].
 fn faces(scenario: &Scenario, simulation: &Simulation, axis: usize) -> [Option<f64>; 2] {
-    if let Some(domain) = scenario.domain.filter(|domain| domain.periodic[axis]) {
+    let domain = simulation.domain();
+    if domain.periodic[axis] {
         return [Some(domain.extent.lower[axis]), Some(domain.extent.upper[axis])];
     }
     box_walls(scenario, axis).map(|index| {
