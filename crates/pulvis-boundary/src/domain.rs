@@ -191,7 +191,7 @@ impl Images {
         for _ in 0..2 {
             let turns = turns_along(y, along_y);
             y = nearest_along(y, along_y);
-            x = x - turns * R::splat(xy);
+            x -= turns * R::splat(xy);
         }
         for _ in 0..3 {
             x = nearest_along(x, along_x);

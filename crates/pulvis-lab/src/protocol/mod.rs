@@ -4,6 +4,7 @@
 //! [`preflight`] says what a run will be like; [`run`] does it and writes its files; [`resume`] goes on with an interrupted one.
 
 mod allow;
+mod cell;
 mod check;
 mod checkpoint;
 mod clusters;
