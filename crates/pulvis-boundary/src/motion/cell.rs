@@ -23,7 +23,7 @@ pub enum CellControl {
 /// [`FASTEST`](Self::FASTEST) times that rate. A packing with the bulk modulus K comes to its target within some η/K.
 ///
 /// # Source
-/// The inertial number: GDR MiDi, Eur. Phys. J. E 14, 341 (2004), section 6. A rate in proportion to the error of the
+/// The inertial number: GDR MiDi, Eur. Phys. J. E 14, 341 (2004). A rate in proportion to the error of the
 /// stress is the usual control of periodic cells in granular simulations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellMotion {

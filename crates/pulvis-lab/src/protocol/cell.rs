@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use pulvis_boundary::CellContent;
 use pulvis_core::{CellControl, CellMotion, Particle, Simulation, UpperTriangular};
 use pulvis_input::Problem;
-use pulvis_input::scenario::{Scenario, Stage};
-use pulvis_math::elementary::{exp, powi};
+use pulvis_input::scenario::{Scenario, Stage, StopRules};
+use pulvis_math::elementary::{exp, ln, powi};
 
 use super::error::PrepareError;
 use super::setup::StagePlan;
@@ -50,6 +50,29 @@ pub(super) fn values(scenario: &Scenario, simulation: &Simulation, volume: f64) 
     values
 }
 
+/// The time in which rules for strains are reached at the rates of the cell [s], if they are.
+pub(super) fn time_to_strain(rules: &StopRules, motion: &CellMotion) -> Option<f64> {
+    let rate = |component: usize| match motion.components[component] {
+        CellControl::Rate(rate) => Some(rate),
+        CellControl::Fixed | CellControl::Stress(_) => None,
+    };
+    let length = rules.strain.and_then(|rule| Some(ln(1.0 + rule.value) / rate(rule.axis.index())?));
+    let shear = rules.shear_strain.and_then(|rule| Some(rule.value / rate(rule.component)?));
+    length.into_iter().chain(shear).filter(|time| *time > 0.0).min_by(f64::total_cmp)
+}
+
+/// The motion of the cell in every stage.
+pub(super) fn motions(scenario: &Scenario, present: &CellMotion) -> Vec<CellMotion> {
+    let mut motion = *present;
+    let stages = scenario.stages.iter();
+    stages
+        .map(|stage| {
+            motion = stage.cell.unwrap_or(motion);
+            motion
+        })
+        .collect()
+}
+
 /// Refuses rates that are too fast for the time step, servos that are too stiff for it, and cells that are pressed until
 /// nothing fits into them.
 pub(super) fn check_cell(
@@ -61,9 +84,9 @@ pub(super) fn check_cell(
     let Some(domain) = scenario.domain else { return Ok(()) };
     let mut sizes = domain.extent.size().to_array();
     let mut known = scenario.start_from.is_none();
-    let mut motion = *present;
+    let motions = motions(scenario, present);
     for (number, (stage, plan)) in scenario.stages.iter().zip(plans).enumerate() {
-        motion = stage.cell.unwrap_or(motion);
+        let motion = motions[number];
         let place = Place { scenario, number };
         place.check_rates(&motion, plan.time_step)?;
         place.check_servo(&motion, particles, plan)?;

@@ -3,6 +3,7 @@
 use pulvis_core::{CellControl, Simulation, UpperTriangular};
 use pulvis_input::scenario::{Crossing, Scenario, Stage, StopRules, WallMotion};
 
+use super::cell::time_to_strain;
 use super::checkpoint::WatchRecord;
 use super::setup::{box_walls, extent};
 use pulvis_core::walls::Extent;
@@ -120,7 +121,9 @@ impl<'a> StageWatch<'a> {
 
     /// How far the stage has come, from 0 to 1, where its duration is known.
     pub(super) fn progress(&self, simulation: &Simulation) -> Option<f64> {
-        let duration = self.rules.time.or_else(|| cycles_duration(simulation))?;
+        let strained = time_to_strain(self.rules, simulation.cell_motion());
+        let duration = self.rules.time.or_else(|| cycles_duration(simulation));
+        let duration = duration.into_iter().chain(strained).min_by(f64::total_cmp)?;
         Some(((simulation.time() - self.start_time) / duration).min(1.0))
     }
 

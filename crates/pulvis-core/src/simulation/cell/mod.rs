@@ -10,21 +10,22 @@
 //! v = c + G x. The energy E is that of the peculiar motion and of the contacts.
 //!
 //! # Source
-//! D. J. Evans and G. P. Morriss, Statistical Mechanics of Nonequilibrium Liquids, 2nd ed. (2008), eqs. (6.3.8) and (6.3.11)
-//! (the SLLOD equations, and their dissipation).
+//! D. J. Evans and G. P. Morriss, Statistical Mechanics of Nonequilibrium Liquids, 2nd ed. (2008), section 6.3: the
+//! SLLOD equations of motion, and the work that a flow does.
+
+mod flow;
+mod record;
 
 use pulvis_boundary::{CellContent, CellMotion, Domain, UpperTriangular};
 use pulvis_math::Vector3;
 
 use super::errors::{Alarm, StepError};
 use super::{SetupError, Simulation};
-use crate::columns::{NameError, NamedNumbers, NumberReader, NumberWriter};
 use crate::contacts::Flow;
 use crate::neighbours::Carried;
-use crate::shared::Shared;
 
 /// The largest strain of a cell in a time step [1]: touching particles then approach each other by a fiftieth of a radius at
-/// most, as in a fiftieth of a contact.
+/// most.
 pub(super) const MOST_STRAIN: f64 = 1e-2;
 
 /// How the cell deforms, and what that keeps between steps.
@@ -67,42 +68,6 @@ impl Cell {
     /// Whether the cell is another one than at the last rebuild of the neighbour list.
     pub(super) fn has_deformed(&self) -> bool {
         self.since_list != UpperTriangular::IDENTITY
-    }
-}
-
-/// The flow of the cell over a time step, by the rule of the middle: x₁ − x₀ = dt (c̄ + G (x₀ + x₁)/2) and the like for c.
-/// It is symmetric in time and therefore of second order; a free particle in a shear moves exactly, and along a
-/// stretched axis the product of length and velocity is exactly constant.
-struct FlowStep {
-    /// x₁ of x₀, relative to the middle of the cell: F = (1 − G dt/2)⁻¹ (1 + G dt/2).
-    deformation: UpperTriangular,
-    /// c₁ of c₀: (1 + G dt/2)⁻¹ (1 − G dt/2).
-    slowing: UpperTriangular,
-    /// What c₀ adds to x₁ [s].
-    drift: UpperTriangular,
-    time_step: f64,
-}
-
-impl FlowStep {
-    fn new(rate: &UpperTriangular, time_step: f64) -> Self {
-        let half = *rate * (0.5 * time_step);
-        let (plus, minus) = (UpperTriangular::IDENTITY + half, UpperTriangular::IDENTITY - half);
-        Self {
-            deformation: minus.inverse().after(&plus),
-            slowing: plus.inverse().after(&minus),
-            drift: minus.inverse().after(&plus.inverse()) * time_step,
-            time_step,
-        }
-    }
-
-    /// Of a particle that has been kicked and has drifted as without flow: position relative to the middle of the cell,
-    /// velocity, and predicted velocity.
-    #[inline(always)]
-    fn carry(&self, [drifted, velocity, predicted]: [Vector3; 3]) -> [Vector3; 3] {
-        let before = drifted - velocity * self.time_step;
-        let after = self.slowing.times(velocity);
-        let position = self.deformation.times(before) + self.drift.times(velocity);
-        [position, after, after + (predicted - velocity)]
     }
 }
 
@@ -215,81 +180,6 @@ impl Simulation {
         }
     }
 
-    /// Deforms the cell over a step, and carries along the particles, which have been kicked and have drifted.
-    pub(super) fn deform_cell(&mut self) -> Result<(), StepError> {
-        let (time_step, middle) = (self.time_step, self.domain.middle());
-        let rate = self.rate_now();
-        let strain = rate.bound() * time_step;
-        // Not `>`: NaN is no small strain.
-        let fits = strain <= MOST_STRAIN;
-        if !fits {
-            return Err(self.alarm(Alarm::CellTooFast { strain, most: MOST_STRAIN }));
-        }
-        let flow = FlowStep::new(&rate, time_step);
-        let chunks = self.contacts.chunks();
-        let particles = &mut self.particles;
-        let positions = Shared::new(&mut particles.position);
-        let velocities = Shared::new(&mut particles.velocity);
-        let predicted = Shared::new(&mut particles.velocity_predicted);
-        // The displacement relative to the flow grows with the flow, by less than this beside the drift.
-        let growth = 2.0 * strain;
-        let thickest = self.skin.thickest;
-        self.pool.for_each(&mut self.outcomes, |number, outcome| {
-            let rows = chunks[number].rows.clone();
-            // SAFETY: chunks have different rows.
-            let (positions, velocities, predicted) = unsafe {
-                (
-                    positions.range_mut(rows.clone()),
-                    velocities.range_mut(rows.clone()),
-                    predicted.range_mut(rows),
-                )
-            };
-            for ((position, velocity), predicted) in positions.iter_mut().zip(velocities).zip(predicted) {
-                let [carried, slowed, expected] =
-                    flow.carry([position.vector - middle, velocity.vector, predicted.vector]);
-                position.vector = carried + middle;
-                (velocity.vector, predicted.vector) = (slowed, expected);
-            }
-            outcome.moved = outcome.moved.farther(growth * (thickest + outcome.kicked.fastest * time_step));
-        });
-        self.domain = self.domain.deformed(&flow.deformation);
-        self.cell.since_list = flow.deformation.after(&self.cell.since_list);
-        self.cell.strain = self.cell.strain + rate * time_step;
-        self.cell.rate = rate;
-        Ok(())
-    }
-
-    /// The velocity gradient of the coming step, by the stress at its beginning [1/s].
-    fn rate_now(&self) -> UpperTriangular {
-        let Cell { motion, start, content, stress, .. } = &self.cell;
-        if motion.targets().next().is_none() {
-            return motion.prescribed();
-        }
-        let volume = self.domain.extent.volume();
-        // Of the two shear stresses the one that does work.
-        let stress = UpperTriangular::INDICES.map(|[row, column]| stress[row][column] / volume);
-        motion.rates(stress, self.time - start, *content)
-    }
-
-    /// Takes in the stress at the end of a step, and books the work of the cell by the trapezoidal rule.
-    pub(super) fn finish_cell(&mut self) {
-        let before = self.cell.stress;
-        self.take_stress();
-        let now = self.cell.stress;
-        let rates = self.cell.rate.to_array();
-        let power: f64 = UpperTriangular::INDICES
-            .into_iter()
-            .zip(rates)
-            .map(|([row, column], rate)| rate * (before[row][column] + now[row][column]))
-            .sum();
-        self.cell.work -= 0.5 * self.time_step * power;
-    }
-
-    /// Takes in the present stress.
-    pub(super) fn take_stress(&mut self) {
-        self.cell.stress = self.stress_times_volume();
-    }
-
     /// By how much the deformation since the last rebuild can have brought each of two particles nearer to the other,
     /// beside their displacements relative to it [m].
     ///
@@ -326,50 +216,5 @@ impl Simulation {
     /// A new list is made for the present cell.
     pub(super) fn note_list_of_cell(&mut self) {
         (self.cell.since_list, self.cell.listed) = (UpperTriangular::IDENTITY, self.domain);
-    }
-}
-
-impl Cell {
-    /// All of it but the motion and the domain of the list.
-    pub(super) fn numbers(&self) -> NamedNumbers {
-        let Self { motion: _, start, content, rate, stress, work, strain, since_list, listed: _ } = self;
-        let mut writer = NumberWriter::default();
-        writer.number("start", *start);
-        writer.number("diameter", content.diameter);
-        writer.number("density", content.density);
-        writer.number("work", *work);
-        for (name, matrix) in [("rate", rate), ("strain", strain), ("since_list", since_list)] {
-            for (entry, value) in UpperTriangular::NAMES.into_iter().zip(matrix.to_array()) {
-                writer.number(&format!("{name}_{entry}"), value);
-            }
-        }
-        for (name, row) in ["stress_x", "stress_y", "stress_z"].into_iter().zip(stress) {
-            writer.vector(name, Vector3::from(*row));
-        }
-        writer.finish()
-    }
-
-    /// From all of it.
-    pub(super) fn from_numbers(
-        motion: CellMotion,
-        listed: Domain,
-        mut reader: NumberReader<'_>,
-    ) -> Result<Self, NameError> {
-        let start = reader.number("start")?;
-        let content =
-            CellContent { diameter: reader.number("diameter")?, density: reader.number("density")? };
-        let work = reader.number("work")?;
-        let mut matrix = |name: &str| -> Result<UpperTriangular, NameError> {
-            let mut entries = [0.0; 6];
-            for (value, entry) in entries.iter_mut().zip(UpperTriangular::NAMES) {
-                *value = reader.number(&format!("{name}_{entry}"))?;
-            }
-            Ok(UpperTriangular::from_array(entries))
-        };
-        let (rate, strain, since_list) = (matrix("rate")?, matrix("strain")?, matrix("since_list")?);
-        let mut row = |name: &str| reader.vector(name).map(Vector3::to_array);
-        let stress = [row("stress_x")?, row("stress_y")?, row("stress_z")?];
-        reader.finish()?;
-        Ok(Self { motion, start, content, rate, stress, work, strain, since_list, listed })
     }
 }
