@@ -6,6 +6,7 @@
 
 mod background;
 mod cuboid;
+mod deformation;
 mod domain;
 pub mod motion;
 mod region;
@@ -14,8 +15,9 @@ mod temperature;
 
 pub use background::{Background, Drag};
 pub use cuboid::Cuboid;
+pub use deformation::UpperTriangular;
 pub use domain::{Domain, Images};
-pub use motion::WallMotion;
+pub use motion::{CellContent, CellControl, CellMotion, WallMotion};
 pub use region::Region;
 pub use shape::{Cylinder, CylinderSide, Plane, Shape, Surface, WallShape};
 pub use temperature::{InvalidProgram, TemperatureProgram};

@@ -59,6 +59,8 @@ pub struct Ledger {
     pub work_walls: f64,
     /// Work done on the particles by servo-controlled walls [J].
     pub work_servo: f64,
+    /// Work done on the particles by the deformation of the periodic cell [J].
+    pub work_cell: f64,
     /// Change of the stored energy by switches of laws, walls or the time step [J].
     pub switched: f64,
     /// Energy of inserted particles, with that stored in their contacts [J].
@@ -112,7 +114,7 @@ impl Ledger {
 
     /// All external work [J].
     pub fn work(&self) -> f64 {
-        self.work_walls + self.work_servo + self.switched
+        self.work_walls + self.work_servo + self.work_cell + self.switched
     }
 
     /// Stored + dissipated + carried out − work − carried in − stored at the start: zero for exact integration [J].
@@ -127,7 +129,7 @@ impl Ledger {
     }
 
     /// The names of all accounts with their values [J], in the order of output tables.
-    pub fn accounts(&self) -> [(&'static str, f64); 27] {
+    pub fn accounts(&self) -> [(&'static str, f64); 28] {
         [
             ("kinetic_translation", self.kinetic_translation),
             ("kinetic_rotation", self.kinetic_rotation),
@@ -153,6 +155,7 @@ impl Ledger {
             ("dissipated_background", self.dissipated_background),
             ("work_walls", self.work_walls),
             ("work_servo", self.work_servo),
+            ("work_cell", self.work_cell),
             ("switched", self.switched),
             ("inflow", self.inflow),
             ("outflow", self.outflow),

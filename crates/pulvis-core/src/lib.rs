@@ -27,11 +27,13 @@ pub use contacts::{
 pub use ledger::Ledger;
 pub use particles::{MaterialIndex, Particle, ParticleId, Particles, Vectors};
 pub use phases::Phases;
-pub use pulvis_boundary::{Background, Domain, Region, TemperatureProgram};
+pub use pulvis_boundary::{
+    Background, CellContent, CellControl, CellMotion, Domain, Region, TemperatureProgram, UpperTriangular,
+};
 pub use pulvis_math::InstructionSet;
 pub use simulation::{
-    Alarm, DeepContact, Limits, ListState, ParticleState, Setup, SetupError, Simulation, State, StateError,
-    StepError, WallRecord,
+    Alarm, CellState, DeepContact, Limits, ListState, ParticleState, Setup, SetupError, Simulation, State,
+    StateError, StepError, WallRecord,
 };
 pub use time_step::{
     MotionKind, ShortestContact, ShortestMotion, TouchingAtOnce, shortest_contact, shortest_motion,

@@ -308,3 +308,19 @@ fn observers_see_the_sample_or_a_region_and_measure_all_but_walls_unless_told() 
     assert_eq!((slab.discard, slab.blocks, slab.histogram), (0.1, 5, true));
     assert_eq!(ball.region, Some(Region::Sphere { centre: [1e-2; 3].into(), radius: 4e-3 }));
 }
+
+#[test]
+fn a_cell_deforms_as_its_stages_say_and_goes_on_where_they_say_nothing() {
+    let scenario = good("cell.toml");
+    let motion = |stage: usize| scenario.stages[stage].cell.unwrap();
+    assert_eq!(motion(0).prescribed().to_array(), [-20.0, -20.0, -20.0, 0.0, 0.0, 0.0]);
+    let ramp = PressureRamp { from: 20.0, to: 200.0, duration: 5e-3 };
+    assert_eq!((motion(1).isotropic, motion(1).inertial_number), (Some(ramp), 2e-3));
+    assert_eq!(motion(2).components[3], CellControl::Rate(10.0));
+    let constant = PressureRamp { from: 200.0, to: 200.0, duration: 0.0 };
+    assert_eq!(motion(2).components[1], CellControl::Stress(constant));
+    assert_eq!(motion(2).inertial_number, CellMotion::QUASI_STATIC);
+    assert_eq!(scenario.stages[2].until.shear_strain, Some(ShearRule { component: 3, value: 1.5 }));
+    assert_eq!(scenario.stages[3].cell, None);
+    assert_eq!(scenario.stages[4].cell, Some(CellMotion::default()));
+}

@@ -1,7 +1,7 @@
 //! Checkpoint files: a header for people, compressed contents, a checksum.
 //!
 //! ```text
-//! Pulvis checkpoint 1        the version of the format
+//! Pulvis checkpoint 2        the version of the format
 //! step = 1200                lines of the header, which `head` shows
 //!                            an empty line
 //! ....                       the contents, in LZ4 frames
@@ -20,8 +20,9 @@ use std::io::{self, BufWriter, Read, Write};
 use std::path::Path;
 use twox_hash::XxHash3_64;
 
-/// The version of the format that this program writes, and the newest that it reads.
-pub const VERSION: u32 = 1;
+/// The version of the format that this program writes, and the only one that it reads. Version 2 came with cells that
+/// deform.
+pub const VERSION: u32 = 2;
 
 const HEADING: &str = "Pulvis checkpoint ";
 
@@ -40,9 +41,17 @@ pub enum CheckpointError {
     Foreign,
     /// A newer program has written it.
     #[error(
-        "has version {found} of the format, and this program reads versions up to {VERSION}; take a newer Pulvis"
+        "has version {found} of the format, and this program reads version {VERSION}; take a newer Pulvis"
     )]
     Newer {
+        /// Its version.
+        found: u32,
+    },
+    /// An older program has written it.
+    #[error(
+        "has version {found} of the format, and this program reads version {VERSION}; take the Pulvis that its header names"
+    )]
+    Older {
         /// Its version.
         found: u32,
     },
@@ -165,6 +174,7 @@ fn split_header(bytes: &[u8]) -> Result<(&str, usize), CheckpointError> {
     match version.and_then(|version| version.parse::<u32>().ok()) {
         None => return Err(CheckpointError::Damaged),
         Some(found) if found > VERSION => return Err(CheckpointError::Newer { found }),
+        Some(found) if found < VERSION => return Err(CheckpointError::Older { found }),
         Some(_) => {}
     }
     let length =
@@ -257,7 +267,7 @@ mod tests {
         assert_eq!(read_header(&before).unwrap(), "step = 2");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no temporary file stays");
         let text = String::from_utf8_lossy(&fs::read(&now).unwrap()).into_owned();
-        assert!(text.starts_with("Pulvis checkpoint 1\nstep = 3\n\n"));
+        assert!(text.starts_with("Pulvis checkpoint 2\nstep = 3\n\n"));
     }
 
     #[test]

@@ -21,7 +21,7 @@ pub struct Body {
     pub mass: f64,
     /// Position of the centre, not wrapped [m].
     pub position: Vector3,
-    /// Velocity [m/s].
+    /// Velocity, in the laboratory and not relative to a shear [m/s].
     pub velocity: Vector3,
     /// Angular velocity [rad/s].
     pub angular_velocity: Vector3,
@@ -69,6 +69,10 @@ pub struct ReferenceEngine {
     /// Time step [s].
     pub time_step: f64,
     models: Models,
+    /// Velocity of the next image along y, along x [m/s], and how far it has come [m]: Lees and Edwards, J. Phys. C 5, 1921
+    /// (1972). It is never brought back by a period.
+    image_velocity: f64,
+    image_shift: f64,
     memory: BTreeMap<Bodies, (MemoryLayout, Vec<f64>)>,
     forces: BTreeMap<u32, (Vector3, Vector3)>,
     /// Energy that contacts have lost to everything but dashpots [J].
@@ -103,6 +107,8 @@ impl ReferenceEngine {
             gravity,
             time_step,
             models,
+            image_velocity: 0.0,
+            image_shift: 0.0,
             memory: BTreeMap::new(),
             forces: BTreeMap::new(),
             dissipated: 0.0,
@@ -116,6 +122,16 @@ impl ReferenceEngine {
     /// Other contact models from now on; contacts keep what the same law remembers.
     pub fn set_models(&mut self, models: Models) {
         self.models = models;
+        self.evaluate_at_rest();
+    }
+
+    /// Shears from now on: the images along y move along x at this rate times their distance [1/s]. All bodies get the
+    /// velocity of the shear at their place, zero at the height `middle` [m].
+    pub fn shear(&mut self, rate: f64, middle: f64) {
+        self.image_velocity = rate * self.periods[1].unwrap_or(0.0);
+        for body in &mut self.bodies {
+            body.velocity.x += rate * (body.position.y - middle);
+        }
         self.evaluate_at_rest();
     }
 
@@ -154,6 +170,7 @@ impl ReferenceEngine {
         for plane in &mut self.planes {
             plane.point += plane.velocity * dt;
         }
+        self.image_shift += self.image_velocity * dt;
         self.sum_forces(&motions, dt);
         for body in &mut self.bodies {
             let (force, torque) = self.forces[&body.id];
@@ -191,7 +208,7 @@ impl ReferenceEngine {
     }
 
     fn sphere_contact(&mut self, i: &Body, j: &Body, [of_i, of_j]: [Motion; 2], dt: f64) {
-        let separation = self.nearest(i.position - j.position);
+        let (separation, jump) = self.nearest(i.position - j.position);
         let distance = separation.norm();
         let motion = ContactKinematics {
             normal: separation * (1.0 / distance),
@@ -200,8 +217,8 @@ impl ReferenceEngine {
             normal_rate: None,
             radius_i: i.radius,
             radius_j: j.radius,
-            velocity: of_i.now - of_j.now,
-            velocity_mid: of_i.mid - of_j.mid,
+            velocity: of_i.now - of_j.now + jump,
+            velocity_mid: of_i.mid - of_j.mid + jump,
             angular_velocity_i: of_i.turning,
             angular_velocity_j: of_j.turning,
             angular_velocity_i_mid: of_i.turning_mid,
@@ -272,13 +289,22 @@ impl ReferenceEngine {
         sum.1 += torque;
     }
 
-    /// The shortest of the vectors that differ from `separation` by whole periods.
-    fn nearest(&self, separation: Vector3) -> Vector3 {
-        let along = |axis: usize| match self.periods[axis] {
-            Some(period) => separation[axis] - period * (separation[axis] / period).round(),
-            None => separation[axis],
+    /// The shortest of the vectors that differ from `separation` by whole periods, and what its image adds to the
+    /// relative velocity.
+    fn nearest(&self, mut separation: Vector3) -> (Vector3, Vector3) {
+        let turns = |axis: usize, along: f64| match self.periods[axis] {
+            Some(period) => [(along / period).round(), period],
+            None => [0.0; 2],
         };
-        Vector3::new(along(0), along(1), along(2))
+        // Along y first: its images are shifted along x.
+        let [rows, period] = turns(1, separation.y);
+        separation.y -= rows * period;
+        separation.x -= rows * self.image_shift;
+        for axis in [0, 2] {
+            let [columns, period] = turns(axis, separation[axis]);
+            *separation.component_mut(axis) -= columns * period;
+        }
+        (separation, Vector3::new(-rows * self.image_velocity, 0.0, 0.0))
     }
 }
 

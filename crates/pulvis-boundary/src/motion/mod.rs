@@ -1,11 +1,13 @@
 //! How walls move. One file a motion; the list is at the end of this file.
 
+mod cell;
 mod cosine;
 mod parameter;
 mod rotation;
 mod servo;
 mod velocity;
 
+pub use cell::{CellContent, CellControl, CellMotion};
 pub use cosine::Cosine;
 pub use parameter::{InvalidMotion, Parameter, Presence, Range, Slot};
 pub use rotation::Rotation;

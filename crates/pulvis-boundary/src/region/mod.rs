@@ -43,6 +43,18 @@ impl Region {
     /// lies in no region.
     pub fn contains(&self, position: Vector3, domain: &Domain) -> bool {
         match *self {
+            Self::Box(Cuboid { lower, .. }) if domain.is_tilted() => {
+                // Images along z and y come with shifts: first the image along them that is not below the box.
+                let mut image = position;
+                for axis in [2, 1].into_iter().filter(|&axis| lower[axis].is_finite()) {
+                    image += domain.shift(axis) * domain.turns(lower[axis] - image[axis], axis).ceil();
+                }
+                self.contains(image, &Domain { tilts: [0.0; 3], ..*domain })
+            }
+            Self::Layer { .. } if domain.is_tilted() => {
+                let [lower, upper] = self.bounds();
+                Self::Box(Cuboid { lower, upper }).contains(position, domain)
+            }
             Self::Box(Cuboid { lower, upper }) => {
                 (0..3).all(|axis| is_between(position, axis, [lower[axis], upper[axis]], domain))
             }
@@ -121,10 +133,8 @@ fn is_between(position: Vector3, axis: usize, [lower, upper]: [f64; 2], domain: 
 
 /// The image of a vector [m] that is nearest to zero.
 fn nearest_image(mut apart: Vector3, domain: &Domain) -> Vector3 {
-    for axis in 0..3 {
-        if let Some(period) = domain.period(axis) {
-            *apart.component_mut(axis) -= (apart[axis] / period).round() * period;
-        }
+    for axis in [2, 1, 0] {
+        apart -= domain.shift(axis) * domain.turns(apart[axis], axis).round();
     }
     apart
 }

@@ -12,34 +12,38 @@ impl Region {
     /// Over disjoint regions that fill space the shares add up to 1.
     pub fn share_of_line(&self, from: Vector3, to: Vector3, domain: &Domain) -> f64 {
         let along = to - from;
-        let [lower, upper] = self.bounds();
-        // The images of the line that can meet the region, axis by axis: the first whose start is not below it, and those
-        // that reach across its other side or that of its next image.
-        let mut shifts = [[0.0; 3]; 3];
-        let mut counts = [1; 3];
-        for axis in 0..3 {
-            let Some(period) = domain.period(axis).filter(|_| lower[axis].is_finite()) else { continue };
-            let base = ((lower[axis] - from[axis]) / period).ceil() * period;
-            counts[axis] = 0;
-            for turn in [-1.0, 0.0, 1.0] {
-                let shift = base + turn * period;
-                let ends = [from[axis] + shift, to[axis] + shift];
-                let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-                if low <= upper[axis] && high >= lower[axis] {
-                    shifts[axis][counts[axis]] = shift;
-                    counts[axis] += 1;
-                }
-            }
-        }
+        let images = |from, axis| self.images_along(from, along, axis, domain);
         let mut share = 0.0;
-        for &x in &shifts[0][..counts[0]] {
-            for &y in &shifts[1][..counts[1]] {
-                for &z in &shifts[2][..counts[2]] {
-                    share += self.share_within(from + Vector3::new(x, y, z), along);
+        // Images along z and y may come with shifts along the others.
+        for from in images(from, 2) {
+            for from in images(from, 1) {
+                for from in images(from, 0) {
+                    share += self.share_within(from, along);
                 }
             }
         }
         share.min(1.0)
+    }
+
+    /// The images of a line along an axis that can meet the region, by their starts: the first one that is not below it, and
+    /// those that reach across its other side or that of its next image.
+    fn images_along(
+        &self,
+        from: Vector3,
+        along: Vector3,
+        axis: usize,
+        domain: &Domain,
+    ) -> impl Iterator<Item = Vector3> {
+        let [lower, upper] = self.bounds().map(|corner| corner[axis]);
+        let repeats = domain.period(axis).is_some() && lower.is_finite();
+        let (shift, base) = (domain.shift(axis), domain.turns(lower - from[axis], axis).ceil());
+        let turns = if repeats { [-1.0, 0.0, 1.0].as_slice() } else { &[0.0] };
+        turns.iter().filter_map(move |turn| {
+            let start = if repeats { from + shift * (base + turn) } else { from };
+            let ends = [start[axis], start[axis] + along[axis]];
+            let meets = ends[0].min(ends[1]) <= upper && ends[0].max(ends[1]) >= lower;
+            (!repeats || meets).then_some(start)
+        })
     }
 
     /// The same of one image.

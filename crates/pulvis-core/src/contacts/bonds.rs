@@ -9,7 +9,7 @@ use super::view::Views;
 use crate::particles::{ParticleId, Particles};
 use crate::thread_pool::ThreadPool;
 use crate::walls::WallNow;
-use pulvis_boundary::Images;
+use pulvis_boundary::{Images, UpperTriangular};
 
 /// Two bodies whose bond has broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -134,7 +134,7 @@ impl ContactTable {
             }
             let (model, width) = (group.model, group.layout.columns());
             for block in 0..group.rows.len() {
-                let views = Views { group, particles, images, walls };
+                let views = Views { group, particles, images, rate: UpperTriangular::ZERO, walls };
                 overlaps.clear();
                 overlaps.extend((0..group.occupancy(block)).map(|lane| views.overlap(block, lane)));
                 for (lane, overlap) in overlaps.iter().enumerate() {

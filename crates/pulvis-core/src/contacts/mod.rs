@@ -21,7 +21,7 @@ pub use bonds::{BondCount, BrokenBond};
 pub(crate) use chunk::Chunk;
 pub(crate) use force_pass::Sweep;
 pub use interactions::Interactions;
-pub(crate) use kernel::{Advance, KinematicColumns};
+pub(crate) use kernel::{Advance, Flow, KinematicColumns};
 pub(crate) use rebuild::MemoryStore;
 pub use records::{ContactRecords, MemoryColumn, MemoryError};
 pub(crate) use table::{ContactTable, Surroundings};

@@ -20,7 +20,7 @@ use crate::particles::{ForceTorque, MaterialIndex, Particles};
 use crate::shared::Shared;
 use crate::thread_pool::ThreadPool;
 use crate::walls::{Wall, WallForce, WallNow};
-use pulvis_boundary::Images;
+use pulvis_boundary::{Images, UpperTriangular};
 
 /// All neighbour pairs, and the memory of their contacts.
 #[derive(Clone, Debug, Default)]
@@ -235,7 +235,7 @@ impl ContactTable {
         let groups =
             self.chunks.iter().flat_map(|chunk| chunk.groups.iter().map(move |group| (chunk, group)));
         groups.flat_map(move |(chunk, group)| {
-            let views = Views { group, particles, images, walls };
+            let views = Views { group, particles, images, rate: UpperTriangular::ZERO, walls };
             let closed = match group.partner {
                 Partner::Particle => chunk.approach.pairs,
                 Partner::Wall => chunk.approach.walls,

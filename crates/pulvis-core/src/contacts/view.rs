@@ -6,7 +6,7 @@ use pulvis_math::Vector3;
 use super::block::{ContactGroup, Partner};
 use crate::particles::{ParticleId, Particles};
 use crate::walls::WallNow;
-use pulvis_boundary::Images;
+use pulvis_boundary::{Images, UpperTriangular};
 
 /// The second body of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +57,8 @@ pub(crate) struct Views<'a> {
     pub(crate) group: &'a ContactGroup,
     pub(crate) particles: &'a Particles,
     pub(crate) images: Images,
+    /// The velocity gradient of the flow that carries all particles along [1/s].
+    pub(crate) rate: UpperTriangular,
     /// How walls lie and move.
     pub(crate) walls: &'a [WallNow],
 }
@@ -145,6 +147,7 @@ impl<'a> Views<'a> {
                 let j = self.group.second_row(block, lane) as usize;
                 let separation = self.images.nearest(centre - particles.position[j].vector);
                 let inverse_distance = 1.0 / separation.norm();
+                let velocity = velocity(i) - velocity(j) + self.rate.times(separation);
                 let motion = ContactKinematics {
                     normal: separation * inverse_distance,
                     overlap: radius[i] + radius[j] - separation.norm(),
@@ -152,8 +155,8 @@ impl<'a> Views<'a> {
                     normal_rate: None,
                     radius_i: radius[i],
                     radius_j: radius[j],
-                    velocity: velocity(i) - velocity(j),
-                    velocity_mid: velocity(i) - velocity(j),
+                    velocity,
+                    velocity_mid: velocity,
                     angular_velocity_i: angular_velocity(i),
                     angular_velocity_j: angular_velocity(j),
                     angular_velocity_i_mid: angular_velocity(i),

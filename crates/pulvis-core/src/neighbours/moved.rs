@@ -32,7 +32,7 @@ impl Moved {
 
     /// Adds the displacement of one more particle, with its skin [m].
     #[inline(always)]
-    fn take_in(&mut self, displacement: f64, skin: f64) {
+    pub(super) fn take_in(&mut self, displacement: f64, skin: f64) {
         self.second = self.second.max(displacement.min(self.longest));
         self.longest = self.longest.max(displacement);
         self.left = self.left.min(skin - displacement);
@@ -87,7 +87,7 @@ impl Kernel for Survey<'_> {
 
 /// The length of a displacement; infinite if it is NaN.
 #[inline(always)]
-fn length_of<R: Real>(displacement: Vector3<R>) -> R {
+pub(super) fn length_of<R: Real>(displacement: Vector3<R>) -> R {
     let displacement = displacement.norm();
     R::select(displacement.lt(R::splat(f64::INFINITY)), displacement, R::splat(f64::INFINITY))
 }

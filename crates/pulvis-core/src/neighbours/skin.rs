@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
+use pulvis_boundary::UpperTriangular;
 use pulvis_math::{InstructionSet, Packed4, Vector3, max_or_nan};
 
-use super::moved::{Moved, Survey};
+use super::moved::{Moved, Survey, length_of};
 use crate::particles::Particles;
 use crate::thread_pool::ThreadPool;
 use crate::walls::{Shape, Wall};
@@ -25,6 +26,22 @@ pub(crate) struct Skin {
     pub(crate) walls: Vec<Vector3>,
     /// Steps since the last rebuild.
     pub(crate) steps: u64,
+}
+
+/// Where the flow of a cell has carried what stood somewhere at the last rebuild.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Carried {
+    /// The deformation since then.
+    pub(crate) gradient: UpperTriangular,
+    /// What it has left where it was [m].
+    pub(crate) middle: Vector3,
+}
+
+impl Carried {
+    #[inline(always)]
+    fn position(&self, before: Vector3) -> Vector3 {
+        self.middle + self.gradient.times(before - self.middle)
+    }
 }
 
 /// Steps that a list should last: a skin is as thick as the distance that its particle moves in that many steps. A rebuild
@@ -81,14 +98,15 @@ impl Skin {
         }
     }
 
-    /// Gives all particles new skins at their present positions. `time_step` in s.
-    pub(crate) fn renew(&mut self, particles: &Particles, time_step: f64, pool: &ThreadPool) {
+    /// Gives all particles new skins at their present positions. `flow` is how fast the flow of a cell brings each particle
+    /// nearer to its neighbours [m/s]; `time_step` in s.
+    pub(crate) fn renew(&mut self, particles: &Particles, flow: f64, time_step: f64, pool: &ThreadPool) {
         let time = LIFE as f64 * time_step;
         let (thinnest, thickest) = (self.thinnest, self.thickest);
         pool.fill(&mut self.positions, particles.len(), |row| {
             let Packed4 { vector, scalar } = particles.position[row];
             // A NaN speed gives the thinnest skin.
-            let way = particles.velocity[row].vector.norm() * time;
+            let way = (particles.velocity[row].vector.norm() + flow) * time;
             Packed4::new(vector, scalar + way.max(thinnest).min(thickest))
         });
         self.steps = 0;
@@ -129,6 +147,23 @@ impl Skin {
         instructions: InstructionSet,
     ) -> Moved {
         instructions.run(Survey { positions: &positions[rows.clone()], listed: &self.positions[rows] })
+    }
+
+    /// The same relative to a flow that has carried them along.
+    pub(crate) fn moved_beside(&self, flow: &Carried, rows: Range<usize>, positions: &[Packed4]) -> Moved {
+        let mut moved = Moved::default();
+        for (now, before) in positions[rows.clone()].iter().zip(&self.positions[rows]) {
+            let displacement = now.vector - flow.position(before.vector);
+            moved.take_in(length_of(displacement), before.scalar - now.scalar);
+        }
+        moved
+    }
+
+    /// Lets a flow carry the listed positions along. The list is of no use afterwards.
+    pub(crate) fn carry(&mut self, flow: &Carried) {
+        for position in &mut self.positions {
+            position.vector = flow.position(position.vector);
+        }
     }
 
     /// Upper bound of how much nearer any wall has come to a particle since the last rebuild [m]. A rotation about the axis

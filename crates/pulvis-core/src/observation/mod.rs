@@ -49,7 +49,7 @@ pub struct Observation {
     pub mass: f64,
     /// Their momentum [kg m/s].
     pub momentum: Vector3,
-    /// Σ m v' ⊗ v' for velocities v' relative to the streaming velocity [J].
+    /// Σ m v' ⊗ v' for velocities v' relative to the flow of a cell that deforms [J].
     pub kinetic: Tensor,
     /// Number of touching contacts N_c, each with its share.
     pub contacts: f64,

@@ -1,9 +1,10 @@
 //! What a simulation refuses to start from: numbers that no body or wall can have.
 
-use pulvis_boundary::Background;
 use pulvis_boundary::motion::{Range, Slot};
+use pulvis_boundary::{Background, CellControl, CellMotion, Domain, UpperTriangular};
 use pulvis_math::Vector3;
 
+use super::cell::MOST_STRAIN;
 use super::{Setup, SetupError};
 use crate::particles::Particle;
 use crate::walls::{Extent, FaceArea, Wall, WallMotion};
@@ -130,4 +131,43 @@ fn check_extents(index: usize, wall: &Wall, walls: usize) -> Result<(), SetupErr
         Some(other) => Err(SetupError::NoSuchWall { index, other, walls }),
         None => Ok(()),
     }
+}
+
+/// Refuses what no cell of this domain can do with time steps of this length [s].
+pub(super) fn check_cell_motion(
+    motion: &CellMotion,
+    domain: &Domain,
+    time_step: f64,
+) -> Result<(), SetupError> {
+    let refused = |problem: String| Err(SetupError::Cell { problem });
+    for (component, indices) in UpperTriangular::INDICES.into_iter().enumerate() {
+        let open = indices.into_iter().find(|&axis| domain.period(axis).is_none());
+        if let (true, Some(axis)) = (motion.deforms(component), open) {
+            let (name, axis) = (UpperTriangular::NAMES[component], ["x", "y", "z"][axis]);
+            return refused(format!("{name} deforms, but {axis} is not periodic"));
+        }
+        let normal = component < 3 && motion.components[component] != CellControl::Fixed;
+        if normal && motion.isotropic.is_some() {
+            let name = UpperTriangular::NAMES[component];
+            return refused(format!("{name} is controlled, and the mean of the normal stresses too"));
+        }
+    }
+    let rates = motion.prescribed();
+    let strain = rates.bound() * time_step;
+    // Not `>`: NaN is no small strain.
+    let fits = strain <= MOST_STRAIN;
+    if !fits {
+        return refused(format!("its rates strain it by {strain} in a time step, more than {MOST_STRAIN}"));
+    }
+    for ramp in motion.targets() {
+        let numbers = [ramp.from, ramp.to, ramp.duration, motion.inertial_number];
+        let sound = numbers.into_iter().all(f64::is_finite)
+            && ramp.duration >= 0.0
+            && motion.inertial_number > 0.0
+            && motion.largest_target() > 0.0;
+        if !sound {
+            return refused("a stress to follow is no number, or none differs from zero, or the inertial number is not above zero".to_owned());
+        }
+    }
+    Ok(())
 }

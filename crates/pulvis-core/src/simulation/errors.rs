@@ -117,6 +117,12 @@ pub enum SetupError {
         /// How many there may be.
         most: usize,
     },
+    /// The periodic cell cannot deform as it should.
+    #[error("the cell cannot deform: {problem}")]
+    Cell {
+        /// What is wrong.
+        problem: String,
+    },
     /// The threads cannot be started.
     #[error("cannot start {0} threads; ask for fewer")]
     Threads(usize),
@@ -277,6 +283,34 @@ pub enum Alarm {
         /// The limit [1].
         least: f64,
     },
+    /// The cell has become too narrow for the rule of the nearest image.
+    #[error(
+        "the period along axis {axis} has become {period:.4e} m, shorter than {least:.4e} m, twice the search radius; a particle would meet two images of another one: stop the deformation earlier, or take more particles"
+    )]
+    CellTooNarrow {
+        /// 0 is x, 1 is y, 2 is z.
+        axis: usize,
+        /// The period [m].
+        period: f64,
+        /// The shortest one possible [m].
+        least: f64,
+    },
+    /// The cell deforms too fast for the time step.
+    #[error(
+        "the cell is strained by {strain:.3e} in one time step, more than {most}; its rate is too high, or the stress that it follows is too far away"
+    )]
+    CellTooFast {
+        /// The strain [1].
+        strain: f64,
+        /// The limit [1].
+        most: f64,
+    },
+    /// A wall stands in a cell that deforms.
+    #[error("the wall `{wall}` is there while the cell deforms, which it cannot follow")]
+    WallInMovingCell {
+        /// Name of the wall.
+        wall: String,
+    },
     /// An account of the energy ledger is NaN or infinite.
     #[error(
         "the account `{account}` of the energy ledger is not a finite number; the time step is too long for the forces that act"
@@ -310,6 +344,9 @@ impl Alarm {
             | Self::WallTooFast { .. }
             | Self::WallsCrossed { .. }
             | Self::TooStiff { .. }
+            | Self::CellTooNarrow { .. }
+            | Self::CellTooFast { .. }
+            | Self::WallInMovingCell { .. }
             | Self::EnergyNotFinite { .. }
             | Self::EnergyError { .. } => Vec::new(),
         }

@@ -1,6 +1,7 @@
 //! A simulation of many bodies.
 
 mod accessors;
+mod cell;
 mod checks;
 mod columns;
 mod diagnosis;
@@ -17,11 +18,12 @@ mod switch;
 pub use diagnosis::DeepContact;
 pub use errors::{Alarm, SetupError, StepError};
 pub use limits::Limits;
-pub use state::{ListState, ParticleState, State, StateError, WallRecord};
+pub use state::{CellState, ListState, ParticleState, State, StateError, WallRecord};
 
 use pulvis_contact::ROOM_TEMPERATURE;
 use pulvis_math::{InstructionSet, Vector3, max_or_nan};
 
+use self::cell::Cell;
 use crate::columns::NamedColumn;
 use crate::contacts::{BrokenBonds, ContactTable, Interactions, MemoryStore};
 use crate::integrator::Kicked;
@@ -61,6 +63,8 @@ pub struct Simulation {
     /// When each wall's present motion began [s].
     wall_starts: Vec<f64>,
     domain: Domain,
+    /// How the domain deforms.
+    cell: Cell,
     background: Background,
     /// The temperature over time, if laws are to know it.
     temperature: Option<TemperatureProgram>,
@@ -193,6 +197,7 @@ impl Simulation {
             wall_states: vec![WallState::default(); walls.len()],
             wall_starts: vec![0.0; walls.len()],
             domain,
+            cell: Cell::new(domain),
             background,
             temperature: None,
             time_step,

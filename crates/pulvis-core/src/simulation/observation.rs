@@ -53,12 +53,6 @@ impl Simulation {
         parts.into_iter().flatten().collect()
     }
 
-    /// The velocity with which the medium streams at a position [m/s]; motion relative to it is random. Zero, as long as
-    /// nothing makes space flow.
-    fn streaming_velocity(&self, _position: Vector3) -> Vector3 {
-        Vector3::zero()
-    }
-
     /// The regions that hold each row, a bit for each.
     fn inside(&self, regions: &[Option<Region>]) -> Vec<u64> {
         let (particles, domain) = (&self.particles, &self.domain);
@@ -79,10 +73,10 @@ impl Simulation {
         let sums: [f64; 12] = self.pool.sum_over(particles.len(), |rows| {
             let mut sums = [0.0; 12];
             for row in rows.filter(|&row| is_in(inside[row], number)) {
-                let (mass, position) = (particles.mass[row], particles.position[row].vector);
-                let velocity = particles.velocity[row].vector;
-                let v = velocity - self.streaming_velocity(position);
-                let momentum = velocity * mass;
+                let mass = particles.mass[row];
+                // Relative to the flow of a cell that deforms.
+                let v = particles.velocity[row].vector;
+                let momentum = v * mass;
                 let parts = [
                     1.0,
                     volume(particles.radius[row]),

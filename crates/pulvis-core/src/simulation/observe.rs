@@ -60,6 +60,7 @@ impl Simulation {
             dissipated_background: self.running.background,
             work_walls: self.wall_states.iter().map(|state| state.work_prescribed).sum(),
             work_servo: self.wall_states.iter().map(|state| state.work_servo).sum(),
+            work_cell: self.cell.work,
             switched: self.running.switched,
             inflow: self.running.inflow,
             outflow: self.running.outflow,
@@ -126,8 +127,8 @@ impl Simulation {
         see: &mut dyn FnMut(&ContactView<'_>, [usize; 2]),
     ) {
         for group in &chunk.groups {
-            let (particles, images) = (&self.particles, self.domain.images());
-            view_contacts(Views { group, particles, images, walls }, see);
+            let (particles, images, rate) = (&self.particles, self.domain.images(), self.cell.rate);
+            view_contacts(Views { group, particles, images, rate, walls }, see);
         }
     }
 }

@@ -34,22 +34,31 @@ impl Simulation {
         if steps == 0 {
             return Ok(());
         }
+        let deforms = self.cell_moves()?;
         self.kick_and_drift();
         for left in (0..steps).rev() {
+            if deforms {
+                self.deform_cell()?;
+            }
             self.move_walls();
             self.step += 1;
             self.renew_if_outdated()?;
             let surveys_energy = self.step.is_multiple_of(ENERGY_SURVEY);
-            let background_power = self.forces_and_kick(false, left > 0 && !surveys_energy);
+            // How a cell deforms next may depend on all forces, and its work on the velocities at their time.
+            let pauses = surveys_energy || deforms;
+            let background_power = self.forces_and_kick(false, left > 0 && !pauses);
             self.finish_walls();
+            if deforms {
+                self.finish_cell();
+            }
             self.time += self.time_step;
             self.check_stiffness()?;
             self.running.take_in(self.contacts.energies(), background_power, self.time_step);
             if surveys_energy {
                 self.survey_energy()?;
-                if left > 0 {
-                    self.kick_and_drift();
-                }
+            }
+            if pauses && left > 0 {
+                self.kick_and_drift();
             }
         }
         Ok(())
@@ -104,17 +113,22 @@ impl Simulation {
         if surveyed {
             self.survey();
         }
-        let mut holds = self.skin.holds(self.left_of_skins(), walls);
+        let closing = self.closing_of_cell();
+        let mut holds = self.skin.holds(self.left_of_skins() - closing, walls);
         if !surveyed && !holds {
             self.survey();
-            holds = self.skin.holds(self.left_of_skins(), walls);
+            holds = self.skin.holds(self.left_of_skins() - closing, walls);
         }
         if holds {
             let outcomes = &self.outcomes;
-            self.contacts.close_gaps(|chunk| outcomes[chunk].moved, walls);
+            self.contacts.close_gaps(|chunk| outcomes[chunk].moved.farther(closing), walls);
             return Ok(());
         }
         self.check_movement()?;
+        if let Some(carried) = self.carried() {
+            self.skin.carry(&carried);
+            self.fit_skin_to_cell()?;
+        }
         self.skin.adapt(&self.particles.position, &self.pool);
         self.renew_candidates();
         self.check_overlaps()
@@ -128,9 +142,13 @@ impl Simulation {
     /// Measures the displacements of all particles since the last rebuild.
     fn survey(&mut self) {
         let (chunks, skin, positions) = (self.contacts.chunks(), &self.skin, &self.particles.position);
-        let instructions = self.instructions;
+        let (instructions, carried) = (self.instructions, self.carried());
         self.pool.for_each(&mut self.outcomes, |number, outcome| {
-            outcome.moved = skin.moved(chunks[number].rows.clone(), positions, instructions);
+            let rows = chunks[number].rows.clone();
+            outcome.moved = match &carried {
+                None => skin.moved(rows, positions, instructions),
+                Some(carried) => skin.moved_beside(carried, rows, positions),
+            };
         });
     }
 
@@ -181,6 +199,7 @@ impl Simulation {
             temperature,
             timed: self.phases.is_some(),
             images: self.domain.images(),
+            flow: self.flow(time_step),
             ledger: self.accounting,
             stored: !onwards,
             instructions: self.instructions,
@@ -240,6 +259,9 @@ impl Simulation {
         self.running.take_in(self.contacts.energies(), background_power, 0.0);
         for (state, &force) in self.wall_states.iter_mut().zip(&self.on_particles) {
             state.load = -force;
+        }
+        if self.cell.motion.moves() {
+            self.take_stress();
         }
     }
 }

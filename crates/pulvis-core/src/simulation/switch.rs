@@ -1,8 +1,8 @@
 //! Changes between steps: laws, walls, time step, threads.
 
-use pulvis_math::InstructionSet;
+use pulvis_math::{InstructionSet, Vector3};
 
-use super::checks::{check_background, check_wall_motion};
+use super::checks::{check_background, check_cell_motion, check_wall_motion};
 use super::{SetupError, Simulation};
 use crate::contacts::Interactions;
 use crate::phases::Phases;
@@ -73,9 +73,13 @@ impl Simulation {
     /// Sets another gravity and drag.
     ///
     /// # Errors
-    /// A number is not finite, or a drag is negative.
+    /// A number is not finite, a drag is negative, or there is to be gravity in a cell that deforms.
     pub fn set_background(&mut self, background: Background) -> Result<(), SetupError> {
         check_background(&background)?;
+        if self.cell.motion.moves() && background.gravity != Vector3::zero() {
+            let problem = "there is to be gravity, but a cell without a bottom has no height".to_owned();
+            return Err(SetupError::Cell { problem });
+        }
         self.switch(|simulation| {
             simulation.background = background;
             simulation.running.gravity_wrapped = 0.0;
@@ -94,6 +98,7 @@ impl Simulation {
         if !(time_step > 0.0 && time_step.is_finite()) {
             return Err(SetupError::TimeStep(time_step));
         }
+        check_cell_motion(&self.cell.motion, &self.domain, time_step)?;
         self.switch(|simulation| simulation.time_step = time_step);
         Ok(())
     }

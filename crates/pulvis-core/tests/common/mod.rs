@@ -202,3 +202,23 @@ pub fn momentum_scale(simulation: &Simulation) -> f64 {
 pub fn order(errors: &[f64]) -> f64 {
     (errors[0] / errors[errors.len() - 1]).log2() / (errors.len() - 1) as f64
 }
+
+/// All particles of a system.
+pub type States = Vec<State>;
+
+/// The same as [`difference`] in a cell that may be tilted, and up to a shift of all positions: of the way from the first
+/// particle to every other one.
+pub fn difference_in(domain: &Domain, these: &[State], those: &[State]) -> f64 {
+    assert_eq!(these.len(), those.len());
+    let images = domain.images();
+    let one = |(this, that): (&State, &State)| {
+        let ways = (this.position - these[0].position) - (that.position - those[0].position);
+        // Both may be several images apart.
+        let turns = domain.edges().inverse().times(ways).to_array().map(f64::round);
+        let position = images.nearest(ways - domain.edges().times(Vector3::from(turns))).norm() / RADIUS;
+        let velocity = (this.velocity - that.velocity).norm();
+        let angular_velocity = (this.angular_velocity - that.angular_velocity).norm() * RADIUS;
+        max_or_nan(max_or_nan(position, velocity), angular_velocity)
+    };
+    these.iter().zip(those).map(one).fold(0.0, max_or_nan)
+}

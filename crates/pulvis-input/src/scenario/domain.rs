@@ -40,7 +40,8 @@ pub(super) fn read_domain(root: &mut TableReader<'_>) -> Result<Option<Domain>, 
         Ok(periodic)
     });
     table.finish();
-    Ok(Some(Domain { extent: extent?, periodic: periodic? }))
+    let Cuboid { lower, upper } = extent?;
+    Ok(Some(Domain::periodic(lower, upper, periodic?)))
 }
 
 /// Reads `gravity` and `[background]`.

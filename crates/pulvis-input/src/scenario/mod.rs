@@ -36,6 +36,7 @@
 mod allow;
 mod arrangement;
 mod axis;
+mod cell;
 mod columns;
 mod contacts;
 mod controls;
@@ -75,14 +76,14 @@ pub use particles::{ParticleGroup, VelocityPlan};
 pub use points::PointsError;
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};
 pub use pulvis_boundary::{
-    Background, Cuboid, Cylinder, CylinderSide, Domain, Plane, Region, TemperatureProgram, WallMotion,
-    WallShape,
+    Background, CellControl, CellMotion, Cuboid, Cylinder, CylinderSide, Domain, Plane, Region,
+    TemperatureProgram, UpperTriangular, WallMotion, WallShape,
 };
 pub use pulvis_packing::{GasVelocities, Lattice, RadiusDistribution};
 pub use stages::Stage;
 pub use start::StartFrom;
 pub use time::TimeStep;
-pub use until::{Crossing, StopRules, StrainRule, StressRule};
+pub use until::{Crossing, ShearRule, StopRules, StrainRule, StressRule};
 pub use walls::Wall;
 
 use crate::document::Document;

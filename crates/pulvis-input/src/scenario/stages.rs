@@ -1,6 +1,7 @@
 //! Stages: what changes when, and until when.
 
 use super::axis::{Axis, BoxFace, Side};
+use super::cell::read_cell;
 use super::contacts::Contact;
 use super::controls::{WallControl, read_control};
 use super::particles::no_tables;
@@ -13,7 +14,7 @@ use crate::context::{Location, Reported};
 use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::{Boolean, Text};
-use pulvis_boundary::{Background, Region, WallMotion};
+use pulvis_boundary::{Background, CellControl, CellMotion, Domain, Region, UpperTriangular, WallMotion};
 
 /// A stage of a run, with everything that holds while it lasts.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +29,8 @@ pub struct Stage {
     pub form_bonds: bool,
     /// The walls whose control changes at its start, by index; other walls go on as before.
     pub controls: Vec<(usize, WallControl)>,
+    /// How the periodic cell deforms from its start on; where none is given it goes on as before.
+    pub cell: Option<CellMotion>,
     /// One contact for every pair of materials that can meet, in the order of [`super::Scenario::contacts`].
     pub contacts: Vec<Contact>,
     /// Gravity and drag.
@@ -44,13 +47,17 @@ pub(super) struct PlannedStage {
     /// Where the file says that bonds form at its start.
     pub(super) form_bonds: Option<Location>,
     pub(super) controls: Vec<(usize, WallControl)>,
+    /// With its place in the file.
+    pub(super) cell: Option<(CellMotion, Location)>,
     pub(super) switches: Vec<Switch>,
     pub(super) time: TimeStep,
+    pub(super) place: Location,
 }
 
 /// Reads `[[stages]]`; `time` holds before the first one.
 pub(super) fn read_stages(
     root: &mut TableReader<'_>,
+    domain: Option<&Domain>,
     walls: &[Wall],
     time: TimeStep,
 ) -> Result<Vec<PlannedStage>, Reported> {
@@ -59,7 +66,8 @@ pub(super) fn read_stages(
         return Err(root.refuse("stages", no_tables(root, "stages")));
     }
     let mut stages: Vec<PlannedStage> = Vec::new();
-    let mut now = Now { controls: vec![WallControl::Motion(WallMotion::Fixed); walls.len()], time };
+    let controls = vec![WallControl::Motion(WallMotion::Fixed); walls.len()];
+    let mut now = Now { domain, controls, cell: CellMotion::default(), time };
     let mut failure = None;
     for table in tables {
         match read_stage(table, walls, &mut now, &stages) {
@@ -71,15 +79,17 @@ pub(super) fn read_stages(
 }
 
 /// What the stages before have left behind.
-struct Now {
+struct Now<'a> {
+    domain: Option<&'a Domain>,
     controls: Vec<WallControl>,
+    cell: CellMotion,
     time: TimeStep,
 }
 
 fn read_stage(
     mut table: TableReader<'_>,
     walls: &[Wall],
-    now: &mut Now,
+    now: &mut Now<'_>,
     before: &[PlannedStage],
 ) -> Result<PlannedStage, Reported> {
     let name = table.required("name", Text).and_then(|name| {
@@ -93,15 +103,17 @@ fn read_stage(
     let remove = read_region(&mut table, "remove");
     let form_bonds = read_formation(&mut table);
     let controls = read_controls(&mut table, walls, now);
+    let cell = read_cell_now(&mut table, walls, now);
     let switches = read_switches(&mut table);
     let time = read_time(&mut table, now.time);
     if let Ok(time) = time {
         now.time = time;
     }
-    let until = match (until, &controls) {
-        (Ok(until), Ok(controls)) => complete(&table, until, controls, walls, now),
-        (Err(reported), _) | (_, &Err(reported)) => Err(reported),
+    let until = match (until, &controls, &cell) {
+        (Ok(until), Ok(controls), Ok(_)) => complete(&table, until, controls, walls, now),
+        (Err(reported), ..) | (_, &Err(reported), _) | (.., &Err(reported)) => Err(reported),
     };
+    let place = table.location("");
     table.finish();
     Ok(PlannedStage {
         name: name?,
@@ -109,8 +121,10 @@ fn read_stage(
         remove: remove?,
         form_bonds: form_bonds?,
         controls: controls?,
+        cell: cell?,
         switches: switches?,
         time: time?,
+        place,
     })
 }
 
@@ -124,7 +138,7 @@ fn read_formation(stage: &mut TableReader<'_>) -> Result<Option<Location>, Repor
 fn read_controls(
     stage: &mut TableReader<'_>,
     walls: &[Wall],
-    now: &mut Now,
+    now: &mut Now<'_>,
 ) -> Result<Vec<(usize, WallControl)>, Reported> {
     let names: Vec<&str> = walls.iter().map(|wall| wall.name.as_str()).collect();
     let mut controls = Vec::new();
@@ -159,7 +173,7 @@ fn complete(
     mut until: StopRules,
     controls: &[(usize, WallControl)],
     walls: &[Wall],
-    now: &Now,
+    now: &Now<'_>,
 ) -> Result<StopRules, Reported> {
     if until.is_empty() {
         let durations = controls.iter().filter_map(|(_, control)| control.duration());
@@ -172,7 +186,12 @@ fn complete(
         })?);
         return Ok(until);
     }
+    check_shear_rule(table, &until, now)?;
     for (rule, axis) in until.axes() {
+        if now.repeats(axis) {
+            check_cell_rule(table, rule, axis, now)?;
+            continue;
+        }
         facing(axis, walls, now).map_err(|missing| {
             let found = format!("`{rule}` needs both walls of the box along {}", axis.name());
             let expected = format!("the wall {missing}, which is not there in this stage");
@@ -180,7 +199,8 @@ fn complete(
         })?;
     }
     let is_servo = |control: &WallControl| matches!(control, WallControl::Motion(WallMotion::Servo(_)));
-    if until.pressure_tolerance.is_some() && !now.controls.iter().any(is_servo) {
+    let follows = now.cell.targets().next().is_some();
+    if until.pressure_tolerance.is_some() && !follows && !now.controls.iter().any(is_servo) {
         let problem = Problem::rule(
             "`pressure_tolerance` and no wall under a pressure",
             "a wall with control = \"servo\", or no `pressure_tolerance`",
@@ -191,8 +211,57 @@ fn complete(
     Ok(until)
 }
 
+impl Now<'_> {
+    /// Whether space repeats along an axis.
+    fn repeats(&self, axis: Axis) -> bool {
+        self.domain.is_some_and(|domain| domain.periodic[axis.index()])
+    }
+}
+
+/// Reads `[stages.cell]`, which finds the walls as this stage leaves them.
+fn read_cell_now(
+    table: &mut TableReader<'_>,
+    walls: &[Wall],
+    now: &mut Now<'_>,
+) -> Result<Option<(CellMotion, Location)>, Reported> {
+    let present = walls.iter().zip(&now.controls).find(|(_, control)| **control != WallControl::Removed);
+    let present = present.map(|(wall, _)| wall.name.as_str());
+    let place = table.location("cell");
+    let cell = read_cell(table, now.domain, present)?;
+    now.cell = cell.unwrap_or(now.cell);
+    Ok(cell.map(|motion| (motion, place)))
+}
+
+/// Refuses a rule that looks at the length or the stress of a cell along an axis, where that stays as it is.
+fn check_cell_rule(table: &TableReader<'_>, rule: &str, axis: Axis, now: &Now<'_>) -> Result<(), Reported> {
+    let moves = if rule == "strain" { now.cell.deforms(axis.index()) } else { now.cell.moves() };
+    if moves {
+        return Ok(());
+    }
+    let name = axis.name();
+    let found = format!("`{rule}` along {name}, where space repeats and does not deform");
+    Err(table
+        .refuse("until", Problem::rule(found, format!("{name}{name} in [stages.cell], or another rule"))))
+}
+
+/// Refuses a shear strain that nothing leads to, or that its rate leads away from.
+fn check_shear_rule(table: &TableReader<'_>, until: &StopRules, now: &Now<'_>) -> Result<(), Reported> {
+    let Some(rule) = until.shear_strain else { return Ok(()) };
+    let name = UpperTriangular::NAMES[rule.component];
+    let found = match now.cell.components[rule.component] {
+        CellControl::Stress(_) => return Ok(()),
+        CellControl::Rate(rate) if rate * rule.value > 0.0 => return Ok(()),
+        CellControl::Rate(rate) => {
+            format!("the shear strain {name} never reaches {}: its rate is {rate} 1/s", rule.value)
+        }
+        CellControl::Fixed => format!("`shear_strain` looks at {name}, which does not deform"),
+    };
+    let expected = format!("a rate of {name} in [stages.cell] that leads there, or another rule");
+    Err(table.refuse("until", Problem::rule(found, expected)))
+}
+
 /// The motions of the two box walls of an axis, or the name of one that is not there.
-fn facing(axis: Axis, walls: &[Wall], now: &Now) -> Result<[WallMotion; 2], &'static str> {
+fn facing(axis: Axis, walls: &[Wall], now: &Now<'_>) -> Result<[WallMotion; 2], &'static str> {
     let motion = |side| {
         let face = BoxFace { axis, side };
         let found = walls.iter().zip(&now.controls).find(|(wall, _)| wall.face == Some(face));
@@ -209,10 +278,24 @@ fn reaches_strain(
     table: &TableReader<'_>,
     until: &StopRules,
     walls: &[Wall],
-    now: &Now,
+    now: &Now<'_>,
 ) -> Result<(), Reported> {
     let only = StopRules { strain: until.strain, ..StopRules::default() };
     let Some(rule) = until.strain.filter(|_| *until == only) else { return Ok(()) };
+    if now.repeats(rule.axis) {
+        return match now.cell.components[rule.axis.index()] {
+            CellControl::Rate(rate) if rate * rule.value <= 0.0 => {
+                let name = rule.axis.name();
+                let found = format!(
+                    "the strain never reaches {}: along {name} the cell deforms at {rate} 1/s",
+                    rule.value
+                );
+                let expected = "a rate of the sign of the strain, or another rule";
+                Err(table.refuse("until", Problem::rule(found, expected)))
+            }
+            _ => Ok(()),
+        };
+    }
     let Ok([low, high]) = facing(rule.axis, walls, now) else { return Ok(()) };
     let rate = |motion: WallMotion| motion.law().constant_velocity().map(|v| v[rule.axis.index()]);
     if let (Some(low), Some(high)) = (rate(low), rate(high))

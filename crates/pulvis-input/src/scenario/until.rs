@@ -8,6 +8,7 @@ use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::Choice;
+use pulvis_boundary::UpperTriangular;
 use pulvis_math::Dimension;
 
 /// A stage ends as soon as any of these holds; at least one is given.
@@ -19,12 +20,14 @@ pub struct StopRules {
     pub kinetic_to_elastic: Option<f64>,
     /// Time before which the energies are not looked at [s].
     pub minimum_time: f64,
-    /// A sample is at rest only while the stress on every servo wall differs from the pressure at the end of its ramp by
+    /// A sample is at rest only while the stress on every servo wall, and every stress that the cell follows, differs from the pressure at the end of its ramp by
     /// this share at most [1].
     pub pressure_tolerance: Option<f64>,
     /// The box has been strained so far.
     pub strain: Option<StrainRule>,
-    /// The stress on a pair of walls has been reached.
+    /// The cell has been sheared so far.
+    pub shear_strain: Option<ShearRule>,
+    /// The stress on a pair of walls has been reached, or that of the cell along a periodic direction.
     pub stress: Option<StressRule>,
 }
 
@@ -47,12 +50,21 @@ impl StopRules {
     }
 }
 
-/// (L − L0)/L0 of the distance L of the two box walls reaches a value; L0 is L at the start of the stage.
+/// (L − L0)/L0 of the distance L of the two box walls, or of a period, reaches a value; L0 is L at the start of the stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrainRule {
     /// Direction of L.
     pub axis: Axis,
     /// The strain [1]: positive for extension, negative for compression, never zero.
+    pub value: f64,
+}
+
+/// The shear strain of the cell since the start of the stage reaches a value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShearRule {
+    /// Its component: the place of xy, xz or yz in [`UpperTriangular::NAMES`].
+    pub component: usize,
+    /// The strain [1]; never zero.
     pub value: f64,
 }
 
@@ -103,6 +115,7 @@ pub(super) fn read_until(stage: &mut TableReader<'_>) -> Result<StopRules, Repor
         (tolerance, _) => tolerance,
     };
     let strain = table.optional_table("strain").and_then(|rule| rule.map(read_strain).transpose());
+    let shear = table.optional_table("shear_strain").and_then(|rule| rule.map(read_shear).transpose());
     let stress = table.optional_table("stress").and_then(|rule| rule.map(read_stress).transpose());
     let minimum_time = match (minimum_time, &kinetic_to_elastic, &time) {
         (Ok(Some(_)), Ok(None), _) => {
@@ -124,6 +137,7 @@ pub(super) fn read_until(stage: &mut TableReader<'_>) -> Result<StopRules, Repor
         minimum_time: minimum_time?.unwrap_or(0.0),
         pressure_tolerance: pressure_tolerance?,
         strain: strain?,
+        shear_strain: shear?,
         stress: stress?,
     })
 }
@@ -146,6 +160,10 @@ pub(super) fn write_until(writer: &mut Writer, until: &StopRules) {
             format!("{{ axis = {}, value = {} }}", text(rule.axis.name()), number(rule.value)),
         );
     }
+    if let Some(rule) = until.shear_strain {
+        let (component, value) = (text(UpperTriangular::NAMES[rule.component]), number(rule.value));
+        writer.key("shear_strain", format!("{{ component = {component}, value = {value} }}"));
+    }
     if let Some(rule) = until.stress {
         let (axis, value) = (text(rule.axis.name()), quantity(rule.value, Dimension::PRESSURE));
         let crosses = text(rule.crosses.name());
@@ -165,6 +183,20 @@ fn read_strain(mut table: TableReader<'_>) -> Result<StrainRule, Reported> {
     });
     table.finish();
     Ok(StrainRule { axis: axis?, value: value? })
+}
+
+fn read_shear(mut table: TableReader<'_>) -> Result<ShearRule, Reported> {
+    let choices = [("xy", 3), ("xz", 4), ("yz", 5)];
+    let component = table.required("component", Choice(&choices));
+    let value = table.required("value", QuantityRule::of(Dimension::NONE)).and_then(|value| {
+        if value == 0.0 {
+            let problem = Problem::rule("a stage begins at shear strain 0", "a shear strain other than 0");
+            return Err(table.refuse("value", problem));
+        }
+        Ok(value)
+    });
+    table.finish();
+    Ok(ShearRule { component: component?, value: value? })
 }
 
 fn read_stress(mut table: TableReader<'_>) -> Result<StressRule, Reported> {

@@ -25,6 +25,7 @@ use crate::shape::{Integer, Text};
 use crate::surroundings::{needs_temperature, read_temperature};
 use pulvis_boundary::{Background, TemperatureProgram};
 use pulvis_contact::bond::Form;
+use pulvis_math::Vector3;
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
@@ -85,7 +86,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     let walls = read_walls(&mut root, &materials, known);
     let groups = read_particles(&mut root, &materials, folder);
     let stages = match (&walls, &time) {
-        (Ok(walls), Ok(time)) => read_stages(&mut root, &walls.walls, *time),
+        (Ok(walls), Ok(time)) => read_stages(&mut root, known, &walls.walls, *time),
         (&Err(reported), _) | (_, &Err(reported)) => Err(reported),
     };
     let names: Option<Vec<&str>> =
@@ -217,8 +218,19 @@ fn resolve(
 ) -> Result<Vec<Stage>, InputErrors> {
     let mut document = document.clone();
     let mut stages: Vec<Stage> = Vec::with_capacity(planned.len());
+    let mut deforms = false;
     for stage in planned {
-        let PlannedStage { name, until, remove, form_bonds, controls, switches, time } = stage;
+        let PlannedStage {
+            name,
+            until,
+            remove,
+            form_bonds,
+            controls,
+            cell,
+            switches,
+            time,
+            place: stage_place,
+        } = stage;
         let changing = if switches.is_empty() {
             let before = stages.last();
             Changing {
@@ -251,7 +263,14 @@ fn resolve(
             return Err(document.error_at(place, Problem::rule(found, expected)).into());
         }
         let form_bonds = form_bonds.is_some();
-        stages.push(Stage { name, until, remove, form_bonds, controls, contacts, background, time });
+        deforms = cell.as_ref().map_or(deforms, |(motion, _)| motion.moves());
+        if deforms && background.gravity != Vector3::zero() {
+            let place = cell.as_ref().map_or(&stage_place, |(_, place)| place);
+            let found = "the cell deforms under gravity, but without a bottom it has no height";
+            return Err(document.error_at(place, Problem::rule(found, "no gravity in this stage")).into());
+        }
+        let cell = cell.map(|(motion, _)| motion);
+        stages.push(Stage { name, until, remove, form_bonds, controls, cell, contacts, background, time });
     }
     Ok(stages)
 }

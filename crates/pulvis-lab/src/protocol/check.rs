@@ -10,6 +10,7 @@ use pulvis_input::collision::{Bodies, Sphere, luding_pair};
 use pulvis_input::scenario::{Contact, Scenario, Stage};
 use pulvis_input::{BodyQuantity, NamedLaw, Surroundings};
 
+use super::cell;
 use super::damping::damping_ratios;
 use super::disk::{DiskForecast, disk_forecast, refuse_full_disk};
 use super::error::PrepareError;
@@ -284,12 +285,15 @@ fn forecast(
 }
 
 pub(super) fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForecast> {
-    let plans = scenario.stages.iter().zip(&prepared.stages);
+    let motions = cell::motions(scenario, prepared.simulation.cell_motion());
+    let plans = scenario.stages.iter().zip(&prepared.stages).zip(&motions);
     plans
-        .map(|(stage, plan)| {
+        .map(|((stage, plan), motion)| {
             let rules = &stage.until;
             let cycles = plan.wall_changes.iter().filter_map(|(_, control)| control.duration());
             let duration = rules.time.or_else(|| cycles.max_by(f64::total_cmp));
+            let strained = cell::time_to_strain(rules, motion);
+            let duration = duration.into_iter().chain(strained).min_by(f64::total_cmp);
             StageForecast {
                 name: stage.name.clone(),
                 time_step: plan.time_step,

@@ -4,6 +4,7 @@ use pulvis_core::Simulation;
 use pulvis_core::observation::ObservationPlan;
 use pulvis_input::scenario::{Scenario, WallShape};
 
+use super::cell;
 use super::clusters::{Clusters, clusters};
 use super::observers;
 use super::stage::{length, wall_force, wall_stress};
@@ -55,6 +56,7 @@ pub fn column_names(scenario: &Scenario) -> Vec<String> {
     for axis in AXES {
         columns.extend(["length", "strain", "wall_stress"].map(|name| format!("{name}_{axis}")));
     }
+    columns.extend(cell::columns(scenario));
     for wall in &scenario.walls {
         let names: &[&str] = match wall.shape {
             WallShape::Plane(_) => &["position", "force"],
@@ -172,6 +174,7 @@ impl Measure {
             let stress = wall_stress(scenario, simulation, axis);
             row.extend([lengths[axis], strain, stress].map(|value| value.unwrap_or(f64::NAN)));
         }
+        row.extend(cell::values(scenario, simulation, volume));
         for (place, wall) in simulation.walls().iter().enumerate() {
             let force = simulation.wall_force(place);
             match wall.plane_normal() {

@@ -5,6 +5,7 @@
 
 mod allow;
 mod averages;
+mod cell;
 mod check;
 mod checkpoint;
 mod clusters;

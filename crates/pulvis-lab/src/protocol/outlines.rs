@@ -16,13 +16,23 @@ const BLOWN_APART: f64 = 20.0;
 pub(super) fn walls(scenario: &Scenario, simulation: &Simulation) -> PolyData {
     let cylinders = cylinders(scenario, simulation);
     let boxes = boxes(scenario, simulation, &cylinders);
-    let edges: Vec<[[f64; 3]; 2]> = boxes.iter().flat_map(OutlineBox::edges).collect();
+    let mut edges: Vec<[[f64; 3]; 2]> = boxes.iter().flat_map(OutlineBox::edges).collect();
+    edges.extend(tilted_edges(simulation));
     let radii = edges.iter().map(|_| 0.0).chain(cylinders.iter().map(|cylinder| cylinder.radius)).collect();
     let lines = edges.iter().chain(cylinders.iter().map(|cylinder| &cylinder.ends));
     PolyData {
         points: lines.flatten().copied().collect(),
         columns: vec![("radius".to_owned(), Numbers::Scalar(radii))],
     }
+}
+
+/// The edges of a tilted cell from its lower corner, which lead to the next images; the block that holds the particles is
+/// shown whole beside them.
+fn tilted_edges(simulation: &Simulation) -> impl Iterator<Item = [[f64; 3]; 2]> {
+    let domain = *simulation.domain();
+    let corner = domain.extent.lower;
+    let axes = (0..3).filter(move |&axis| domain.is_tilted() && domain.periodic[axis]);
+    axes.map(move |axis| [corner.to_array(), (corner + domain.shift(axis)).to_array()])
 }
 
 /// The box as far as it is there: whole, or the walls that are left. Where it has been blown apart, the box of the start.
@@ -119,7 +129,8 @@ fn ends(
 
 /// Lower and upper end of the box along an axis, as far as they are there [m].
 fn faces(scenario: &Scenario, simulation: &Simulation, axis: usize) -> [Option<f64>; 2] {
-    if let Some(domain) = scenario.domain.filter(|domain| domain.periodic[axis]) {
+    let domain = simulation.domain();
+    if domain.periodic[axis] {
         return [Some(domain.extent.lower[axis]), Some(domain.extent.upper[axis])];
     }
     box_walls(scenario, axis).map(|index| {

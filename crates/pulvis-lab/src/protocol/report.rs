@@ -129,7 +129,9 @@ fn energies(scenario: &Scenario, series: &Series<'_>) -> Figure {
             dissipated = dissipated.series(Line::line(label, points));
         }
     }
-    for (label, column) in [("work of walls", "work_walls"), ("work of servo", "work_servo")] {
+    for (label, column) in
+        [("work of walls", "work_walls"), ("work of servo", "work_servo"), ("work of cell", "work_cell")]
+    {
         if let Some(points) = unless_zero(series.over_time(column)) {
             dissipated = dissipated.series(Line::dashed(label, points));
         }

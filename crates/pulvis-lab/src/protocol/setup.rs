@@ -2,7 +2,7 @@
 
 use pulvis_core::walls::{Extent, FaceArea, Wall};
 use pulvis_core::{
-    Background, ContactPartner, Domain, Interactions, MaterialIndex, MotionKind, Particle, Setup,
+    Background, CellMotion, ContactPartner, Domain, Interactions, MaterialIndex, MotionKind, Particle, Setup,
     ShortestMotion, Simulation, shortest_motion,
 };
 use pulvis_input::scenario::{Contact, Refusal, Scenario, Side, TimeStep, Wall as WallPlan, WallControl};
@@ -10,6 +10,7 @@ use pulvis_input::scenario::{Contact, Refusal, Scenario, Side, TimeStep, Wall as
 use pulvis_input::Problem;
 
 use super::allow::{limits, refuse_unless_allowed};
+use super::cell::check_cell;
 use super::checkpoint::Ancestor;
 use super::damping::refuse_overdamped;
 use super::error::PrepareError;
@@ -89,6 +90,7 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
     check_overlaps(scenario, &simulation)?;
     refuse_overdamped(scenario, &particles)?;
     check_feasible(scenario, &particles, &walls, &stages)?;
+    check_cell(scenario, &particles, &stages, &CellMotion::default())?;
     let origin =
         Origin { ancestors: Vec::new(), interactions: first.interactions.clone(), stage_ended: true };
     Ok(Prepared { simulation, stages, particles, origin })

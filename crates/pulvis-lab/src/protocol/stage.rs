@@ -1,8 +1,9 @@
 //! When a stage ends.
 
-use pulvis_core::Simulation;
+use pulvis_core::{CellControl, Simulation, UpperTriangular};
 use pulvis_input::scenario::{Crossing, Scenario, Stage, StopRules, WallMotion};
 
+use super::cell::time_to_strain;
 use super::checkpoint::WatchRecord;
 use super::setup::{box_walls, extent};
 use pulvis_core::walls::Extent;
@@ -70,6 +71,8 @@ pub(super) struct StageWatch<'a> {
     start_time: f64,
     /// Extent along each axis at the start of the stage [m].
     start_lengths: [Option<f64>; 3],
+    /// Strain of the cell at the start of the stage [1].
+    start_strain: [f64; 6],
     calm_looks: u32,
     last_stress: Option<f64>,
 }
@@ -82,6 +85,7 @@ impl<'a> StageWatch<'a> {
             start_step: simulation.steps(),
             start_time: simulation.time(),
             start_lengths: [0, 1, 2].map(|axis| length(scenario, simulation, axis)),
+            start_strain: simulation.cell_strain().to_array(),
             calm_looks: 0,
             last_stress: None,
         }
@@ -89,16 +93,25 @@ impl<'a> StageWatch<'a> {
 
     /// Goes on watching over a stage of an interrupted run.
     pub(super) fn resume(scenario: &'a Scenario, stage: &'a Stage, record: &WatchRecord) -> Self {
-        let &WatchRecord { start_step, start_time, start_lengths, calm_looks, last_stress } = record;
+        let &WatchRecord { start_step, start_time, start_lengths, start_strain, calm_looks, last_stress } =
+            record;
         let rules = &stage.until;
-        Self { scenario, rules, start_step, start_time, start_lengths, calm_looks, last_stress }
+        Self { scenario, rules, start_step, start_time, start_lengths, start_strain, calm_looks, last_stress }
     }
 
     /// What the rules have seen so far.
     pub(super) fn record(&self) -> WatchRecord {
-        let &Self { scenario: _, rules: _, start_step, start_time, start_lengths, calm_looks, last_stress } =
-            self;
-        WatchRecord { start_step, start_time, start_lengths, calm_looks, last_stress }
+        let &Self {
+            scenario: _,
+            rules: _,
+            start_step,
+            start_time,
+            start_lengths,
+            start_strain,
+            calm_looks,
+            last_stress,
+        } = self;
+        WatchRecord { start_step, start_time, start_lengths, start_strain, calm_looks, last_stress }
     }
 
     /// Extent along each axis at the start of the stage [m].
@@ -108,13 +121,15 @@ impl<'a> StageWatch<'a> {
 
     /// How far the stage has come, from 0 to 1, where its duration is known.
     pub(super) fn progress(&self, simulation: &Simulation) -> Option<f64> {
-        let duration = self.rules.time.or_else(|| cycles_duration(simulation))?;
+        let strained = time_to_strain(self.rules, simulation.cell_motion());
+        let duration = self.rules.time.or_else(|| cycles_duration(simulation));
+        let duration = duration.into_iter().chain(strained).min_by(f64::total_cmp)?;
         Some(((simulation.time() - self.start_time) / duration).min(1.0))
     }
 
     /// Steps before which the stage certainly does not end, and no look is due.
     pub(super) fn steps_left(&self, simulation: &Simulation) -> u64 {
-        if self.rules.strain.is_some() {
+        if self.rules.strain.is_some() || self.rules.shear_strain.is_some() {
             return 1;
         }
         let look = LOOK_EVERY - (simulation.steps() - self.start_step) % LOOK_EVERY;
@@ -133,7 +148,7 @@ impl<'a> StageWatch<'a> {
         {
             return Some(if cycles == Some(end) { Ending::Cycles } else { Ending::Time });
         }
-        if self.strain_reached(simulation) {
+        if self.strain_reached(simulation) || self.shear_reached(simulation) {
             return Some(Ending::Strain);
         }
         if !(simulation.steps() - self.start_step).is_multiple_of(LOOK_EVERY) {
@@ -174,9 +189,17 @@ impl<'a> StageWatch<'a> {
         if rule.value > 0.0 { strain >= rule.value } else { strain <= rule.value }
     }
 
+    fn shear_reached(&self, simulation: &Simulation) -> bool {
+        let Some(rule) = &self.rules.shear_strain else { return false };
+        let strain = simulation.cell_strain().to_array()[rule.component] - self.start_strain[rule.component];
+        if rule.value > 0.0 { strain >= rule.value } else { strain <= rule.value }
+    }
+
     fn stress_reached(&mut self, simulation: &Simulation) -> bool {
         let Some(rule) = &self.rules.stress else { return false };
-        let Some(stress) = wall_stress(self.scenario, simulation, rule.axis.index()) else { return false };
+        let axis = rule.axis.index();
+        let stress = cell_stress(simulation, axis).or_else(|| wall_stress(self.scenario, simulation, axis));
+        let Some(stress) = stress else { return false };
         let before = self.last_stress.replace(stress);
         let side = |stress: f64| match rule.crosses {
             Crossing::Upwards => stress >= rule.value,
@@ -194,11 +217,37 @@ fn pressures_reached(simulation: &Simulation, tolerance: f64) -> bool {
         WallMotion::Servo(servo) => Some((place, wall, servo.pressure.to)),
         _ => None,
     });
+    let is_near = |stress: f64, target: f64| (stress - target).abs() <= tolerance * target.abs();
+    if !cell_follows(simulation, is_near) {
+        return false;
+    }
     pistons.all(|(place, wall, pressure)| {
         let stress = wall.plane_normal().zip(wall.area.of(walls));
         let stress = stress.map(|(normal, area)| -simulation.wall_force(place).dot(normal) / area);
-        stress.is_some_and(|stress| (stress - pressure).abs() <= tolerance * pressure.abs())
+        stress.is_some_and(|stress| is_near(stress, pressure))
     })
+}
+
+/// Whether all stresses that the cell follows are near those at the end of their ramps.
+fn cell_follows(simulation: &Simulation, is_near: impl Fn(f64, f64) -> bool) -> bool {
+    let motion = simulation.cell_motion();
+    if motion.targets().next().is_none() {
+        return true;
+    }
+    let (sums, volume) = (simulation.stress_times_volume(), simulation.domain().extent.volume());
+    let stress = |[row, column]: [usize; 2]| sums[row][column] / volume;
+    let mut components = motion.components.iter().zip(UpperTriangular::INDICES);
+    let mean = (stress([0, 0]) + stress([1, 1]) + stress([2, 2])) / 3.0;
+    components.all(|(control, indices)| match control {
+        CellControl::Stress(ramp) => is_near(stress(indices), ramp.to),
+        CellControl::Fixed | CellControl::Rate(_) => true,
+    }) && motion.isotropic.is_none_or(|ramp| is_near(mean, ramp.to))
+}
+
+/// The stress of the cell along a periodic direction, compression positive [Pa].
+fn cell_stress(simulation: &Simulation, axis: usize) -> Option<f64> {
+    simulation.domain().period(axis)?;
+    Some(simulation.stress_times_volume()[axis][axis] / simulation.domain().extent.volume())
 }
 
 /// Steps that end before `time` [s] for certain, with two to spare for rounding.
@@ -215,6 +264,9 @@ fn cycles_duration(simulation: &Simulation) -> Option<f64> {
 
 /// Extent of the sample along an axis now [m].
 pub(super) fn length(scenario: &Scenario, simulation: &Simulation, axis: usize) -> Option<f64> {
+    if let Some(period) = simulation.domain().period(axis) {
+        return Some(period);
+    }
     match extent(scenario, axis)? {
         Extent::Given(length) => Some(length),
         Extent::Between(low, high) => {

@@ -8,6 +8,7 @@ use pulvis_io::vtk::Frame;
 use std::path::Path;
 
 use super::allow::limits;
+use super::cell::check_cell;
 use super::checkpoint::{Ancestor, Checkpoint, FindError, Found, RunRecord, find, of_run};
 use super::damping::refuse_overdamped;
 use super::error::PrepareError;
@@ -179,6 +180,7 @@ pub(super) fn branch(scenario: &Scenario, start: &StartFrom) -> Result<Prepared,
     simulation.set_limits(limits(scenario));
     refuse_overdamped(scenario, &particles)?;
     check_feasible(scenario, &particles, simulation.walls(), &stages)?;
+    check_cell(scenario, &particles, &stages, simulation.cell_motion())?;
     let origin = Origin { ancestors, interactions: models, stage_ended };
     Ok(Prepared { simulation, stages, particles, origin })
 }

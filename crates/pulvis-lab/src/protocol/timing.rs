@@ -4,11 +4,12 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use pulvis_boundary::WallMotion;
+use pulvis_boundary::{CellMotion, UpperTriangular, WallMotion};
 use pulvis_core::{Particle, Simulation};
 use pulvis_input::scenario::{Scenario, WallControl};
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, elementary};
 
+use super::cell;
 use super::measure::Measure;
 use super::packed::{Density, packing};
 use super::run::sensible_threads;
@@ -120,15 +121,16 @@ fn lower_decile(mut times: Vec<f64>) -> Option<f64> {
 fn compactions(scenario: &Scenario, prepared: &Prepared) -> Vec<Option<f64>> {
     let sample = Bed::of(scenario, prepared);
     let mut controls = vec![WallControl::Motion(WallMotion::Fixed); scenario.walls.len()];
-    let stages = prepared.stages.iter();
+    let motions = cell::motions(scenario, prepared.simulation.cell_motion());
+    let stages = prepared.stages.iter().zip(&motions);
     stages
-        .map(|plan| {
+        .map(|(plan, motion)| {
             for (wall, control) in &plan.wall_changes {
                 controls[*wall] = *control;
             }
             let walls = (0..controls.len()).filter_map(|wall| sample.pressed_in(wall, &controls[wall]));
             let falling = sample.falls_in(plan.background.gravity, plan.background.drag);
-            walls.chain(falling).min_by(f64::total_cmp)
+            walls.chain(falling).chain(sample.shrinks_in(motion)).min_by(f64::total_cmp)
         })
         .collect()
 }
@@ -180,6 +182,12 @@ impl<'a> Bed<'a> {
         let way = self.way(gravity);
         let steady = drag * way / (self.mean_mass * strength);
         Some((2.0 * way / strength).sqrt().max(steady))
+    }
+
+    /// Time in which a cell that deforms at given rates makes a packing of the sample [s].
+    fn shrinks_in(&self, motion: &CellMotion) -> Option<f64> {
+        let UpperTriangular { xx, yy, zz, .. } = motion.prescribed();
+        (xx + yy + zz < 0.0).then(|| elementary::ln(1.0 - self.empty) / (xx + yy + zz))
     }
 
     /// Time in which a wall crosses the empty part of the sample [s].

@@ -1,6 +1,6 @@
 //! What is valid and yet probably not meant.
 
-use pulvis_boundary::WallMotion;
+use pulvis_boundary::{CellControl, CellMotion, WallMotion};
 use pulvis_contact::bond::Form;
 use pulvis_input::scenario::{Axis, BoxFace, Crossing, Scenario, Side, Stage, WallControl};
 use pulvis_math::Vector3;
@@ -26,6 +26,7 @@ pub fn warnings(scenario: &Scenario, prepared: &Prepared) -> Vec<String> {
 struct Driven {
     controls: Vec<WallControl>,
     gravity: bool,
+    cell: CellMotion,
     /// Whether anything has moved by the end of the stages so far.
     moved: bool,
 }
@@ -40,6 +41,7 @@ impl Driven {
         Self {
             controls: vec![WallControl::Motion(WallMotion::Fixed); scenario.walls.len()],
             gravity: false,
+            cell: *prepared.simulation.cell_motion(),
             moved: pushed || prepared.particles.iter().any(moves),
         }
     }
@@ -49,11 +51,13 @@ impl Driven {
             self.controls[*wall] = *control;
         }
         self.gravity = stage.background.gravity.norm_squared() > 0.0;
+        self.cell = stage.cell.unwrap_or(self.cell);
         self.moved |= self.gravity || self.has_moving_wall();
     }
 
+    /// Or a cell that deforms.
     fn has_moving_wall(&self) -> bool {
-        self.controls.iter().any(|control| !stands_still(control))
+        self.cell.moves() || self.controls.iter().any(|control| !stands_still(control))
     }
 
     /// The controls of the walls of the box along an axis.
@@ -91,16 +95,24 @@ impl Driven {
     fn needs_time(&self, stage: &Stage) -> bool {
         let rules = &stage.until;
         let has_cycles = self.controls.iter().any(|control| control.duration().is_some());
+        let at_rate = |component: usize| matches!(self.cell.components[component], CellControl::Rate(_));
+        let certain_shear = rules.shear_strain.is_some_and(|rule| at_rate(rule.component));
+        let followed = rules
+            .strain
+            .is_some_and(|rule| self.cell.deforms(rule.axis.index()) && !at_rate(rule.axis.index()));
         let certain_strain = rules.strain.is_some()
+            && !followed
             && self.controls.iter().all(|control| match control {
                 WallControl::Motion(motion) => motion.law().constant_velocity().is_some(),
                 WallControl::Removed => true,
             });
-        !has_cycles && !certain_strain
+        !has_cycles && !certain_strain && !certain_shear
     }
 
     fn strain(&self, scenario: &Scenario, axis: Axis) -> Option<String> {
-        let fixed = self.along(scenario, axis).iter().all(stands_still);
+        // That the cell deforms along it has been checked with the file.
+        let repeats = scenario.domain.is_some_and(|domain| domain.periodic[axis.index()]);
+        let fixed = !repeats && self.along(scenario, axis).iter().all(stands_still);
         let name = axis.name();
         fixed.then(|| format!("the rule `strain` never holds: no wall moves along {name}"))
     }

@@ -18,7 +18,7 @@ use crate::columns::NamedColumn;
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
 use crate::walls::WallNow;
-use pulvis_boundary::Images;
+use pulvis_boundary::{Images, UpperTriangular};
 
 /// The columns that contacts read. See [`Particles`](crate::Particles) for what the packed vectors hold.
 #[derive(Clone, Copy)]
@@ -54,6 +54,8 @@ pub(crate) struct Advance {
     pub(crate) temperature: f64,
     /// The nearest-image rule.
     pub(crate) images: Images,
+    /// The flow that the cell carries all bodies along with, if it does.
+    pub(crate) flow: Option<Flow>,
     /// Whether the time of each part is measured.
     pub(crate) timed: bool,
     /// Whether energies are summed up.
@@ -65,6 +67,16 @@ pub(crate) struct Advance {
     pub(crate) instructions: InstructionSet,
     /// Whether laws of common contacts are called through pointers too.
     pub(crate) pointers: bool,
+}
+
+/// The velocity gradient of a flow [1/s]: what it adds to the relative velocity of two bodies over the way from one to the
+/// other.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flow {
+    /// Of the middle of the step, for the way at its end.
+    pub(crate) mid: UpperTriangular,
+    /// At the end of the step.
+    pub(crate) end: UpperTriangular,
 }
 
 /// Computes a group's contacts, particle pairs or contacts with a wall, and adds their forces and torques to `sums`.

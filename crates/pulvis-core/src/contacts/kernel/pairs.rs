@@ -229,6 +229,10 @@ impl Gathering<'_> {
         (motion.overlap, motion.inverse_distance) = (overlap, inverse_distance);
         (motion.radius_i, motion.radius_j) = (radius_i, radius_j);
         (motion.velocity, motion.velocity_mid) = (velocity, velocity_mid);
+        if let Some(flow) = &advance.flow {
+            motion.velocity += flow.end.times(separation);
+            motion.velocity_mid += flow.mid.times(separation);
+        }
         if RESISTANCE != levels::NONE {
             motion.angular_velocity_i_mid = unsafe { gather::<R>(moving.angular_velocity_mid, first) }.0;
             motion.angular_velocity_j_mid = unsafe { gather::<R>(moving.angular_velocity_mid, second) }.0;

@@ -22,6 +22,8 @@ pub(super) struct Level {
     lower: [f64; 3],
     inverse_width: [f64; 3],
     periodic: [bool; 3],
+    /// By how much separations are longer along each axis in a straight cell than they are, at most [1].
+    straightening: [f64; 3],
     /// The box around the centres [m], without end along periodic axes.
     bounds: [[f64; 2]; 3],
 }
@@ -69,7 +71,8 @@ impl Level {
             bounds[axis] = [domain.extent.lower[axis], domain.extent.upper[axis]];
         }
         let most = (CELLS_PER_PARTICLE * u64::from(class.count)).clamp(FREE_CELLS, MOST_CELLS) as f64;
-        let edge = 2.0 * class.largest + margin;
+        let straightening = domain.straightening();
+        let edge = straightening.map(|longer| longer * (2.0 * class.largest + margin));
         let mut spans = bounds;
         let mut cells = cells_within(spans, edge, most);
         if cells.is_none() {
@@ -96,6 +99,7 @@ impl Level {
             lower: spans.map(|[lower, _]| lower),
             inverse_width: [0, 1, 2].map(per_length),
             periodic,
+            straightening,
             bounds,
         }
     }
@@ -159,7 +163,8 @@ impl Level {
     pub(super) fn touched(&self, position: Vector3, interaction_range: f64) -> Option<Touched> {
         let mut touched = [(0, 0); 3];
         for axis in 0..3 {
-            let (low, high) = (position[axis] - interaction_range, position[axis] + interaction_range);
+            let range = self.straightening[axis] * interaction_range;
+            let (low, high) = (position[axis] - range, position[axis] + range);
             if high < self.bounds[axis][0] || low > self.bounds[axis][1] {
                 return None;
             }
@@ -194,27 +199,27 @@ fn floor(value: f64) -> i64 {
     cut.saturating_sub(i64::from(cut as f64 > value))
 }
 
-/// Numbers of cells along each axis if they are at least `width` [m] wide, unless there would be more
+/// Numbers of cells along each axis if they are at least these `widths` [m] wide, unless there would be more
 /// than `most` of them.
-fn cells_within(spans: [[f64; 2]; 3], width: f64, most: f64) -> Option<[u32; 3]> {
+fn cells_within(spans: [[f64; 2]; 3], widths: [f64; 3], most: f64) -> Option<[u32; 3]> {
     // A NaN counts as one cell.
     let along = |widths: f64| if widths >= 1.0 { widths.min(1e9).floor() } else { 1.0 };
-    let cells = spans.map(|[lower, upper]| along((upper - lower) / width));
+    let cells: [f64; 3] = std::array::from_fn(|axis| along((spans[axis][1] - spans[axis][0]) / widths[axis]));
     let padded = cells.map(CellBlocks::padded);
     (padded[0] * padded[1] * padded[2] <= most).then(|| cells.map(|count| count as u32))
 }
 
-/// Numbers of cells along each axis, at least `width` [m] wide and as much wider as it takes for no
+/// Numbers of cells along each axis, at least these `widths` [m] wide and as much wider as it takes for no
 /// more than `most` of them.
-fn wider_cells_within(spans: [[f64; 2]; 3], width: f64, most: f64) -> [u32; 3] {
+fn wider_cells_within(spans: [[f64; 2]; 3], widths: [f64; 3], most: f64) -> [u32; 3] {
     let longest = spans.iter().map(|[lower, upper]| upper - lower).fold(0.0, f64::max);
     // The longest side alone must not have too many. An infinite span gets one cell.
-    let mut width = width.max(longest / most);
-    while width.is_finite() {
-        if let Some(cells) = cells_within(spans, width, most) {
+    let mut widths = widths.map(|width| width.max(longest / most));
+    while widths.iter().all(|width| width.is_finite()) {
+        if let Some(cells) = cells_within(spans, widths, most) {
             return cells;
         }
-        width *= 1.1;
+        widths = widths.map(|width| 1.1 * width);
     }
     [1; 3]
 }

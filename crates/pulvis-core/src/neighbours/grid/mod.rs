@@ -7,6 +7,8 @@ mod search;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
+
 use pulvis_math::Packed4;
 
 use self::classes::Classes;
@@ -28,6 +30,8 @@ pub(crate) struct CellGrid {
     starts: Vec<u32>,
     /// How far beyond touching pairs are looked for [m].
     margin: f64,
+    /// The sorted centres in a straight cell [m] and radii [m], where the domain is tilted.
+    straight: Option<Vec<Packed4>>,
 }
 
 impl CellGrid {
@@ -35,6 +39,8 @@ impl CellGrid {
     /// range. `positions` are centres [m], wrapped into the domain, and radii with skins [m]. Also returns the order: row k
     /// shall become what was row `order[k]`.
     pub(crate) fn sort(domain: &Domain, positions: &[Packed4], margin: f64) -> (Self, Vec<u32>) {
+        let straight = straightened(domain, positions);
+        let positions = &straight[..];
         let classes = Classes::of(positions, margin);
         let mut levels: Vec<Level> = Vec::with_capacity(classes.list.len());
         for index in 0..classes.list.len() {
@@ -51,7 +57,14 @@ impl CellGrid {
         let count = levels.last().map_or(0, Level::end_of_cells);
         let (mut starts, mut order) = (Vec::new(), Vec::new());
         counting_sort(&cells, count as usize, &mut starts, &mut order);
-        (Self { levels, starts, margin }, order)
+        let sorted = || order.iter().map(|&row| positions[row as usize]).collect();
+        let straight = domain.is_tilted().then(sorted);
+        (Self { levels, starts, margin, straight }, order)
+    }
+
+    /// The positions that cells are made of: the sorted ones, or those in a straight cell.
+    fn in_cells<'a>(&'a self, positions: &'a [Packed4]) -> &'a [Packed4] {
+        self.straight.as_deref().unwrap_or(positions)
     }
 
     /// The rows of a cell.
@@ -60,4 +73,13 @@ impl CellGrid {
         let cell = cell as usize;
         (self.starts[cell], self.starts[cell + 1])
     }
+}
+
+/// Positions as a straight cell would have them.
+fn straightened<'a>(domain: &Domain, positions: &'a [Packed4]) -> Cow<'a, [Packed4]> {
+    if !domain.is_tilted() {
+        return Cow::Borrowed(positions);
+    }
+    let straight = |packed: &Packed4| Packed4::new(domain.straightened(packed.vector), packed.scalar);
+    Cow::Owned(positions.iter().map(straight).collect())
 }

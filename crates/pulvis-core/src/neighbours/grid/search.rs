@@ -41,6 +41,7 @@ impl CellGrid {
         positions: &[Packed4],
         mut see: impl FnMut(RowRangePair),
     ) {
+        let positions = self.in_cells(positions);
         for (index, level) in self.levels.iter().enumerate() {
             let coarser = &self.levels[index + 1..];
             let mut own = Adjacent { runs: [(0, 0); 27], count: 1 };

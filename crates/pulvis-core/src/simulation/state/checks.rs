@@ -1,8 +1,9 @@
 //! What a state must be before anything is made of it.
 
-use super::{ListState, ParticleState, State, StateError};
+use super::{CellState, ListState, ParticleState, State, StateError};
 use crate::particles::ParticleId;
 use crate::simulation::check_count;
+use crate::simulation::checks::check_cell_motion;
 use crate::walls::Wall;
 
 const FINITE: &str = "a finite number";
@@ -18,6 +19,17 @@ impl State {
         check_values("time_step", [self.time_step], POSITIVE)?;
         check_values("domain.lower", self.domain.extent.lower.to_array(), FINITE)?;
         check_values("domain.upper", self.domain.extent.upper.to_array(), FINITE)?;
+        check_values("domain.tilts", self.domain.tilts, FINITE)?;
+        let CellState { motion, listed, numbers } = &self.cell;
+        check_values("cell.listed.lower", listed.extent.lower.to_array(), FINITE)?;
+        check_values("cell.listed.upper", listed.extent.upper.to_array(), FINITE)?;
+        check_values("cell.listed.tilts", listed.tilts, FINITE)?;
+        check_numbers("the cell", numbers)?;
+        if listed.periodic != self.domain.periodic {
+            let problem = "other directions were periodic when it was made".to_owned();
+            return Err(StateError::List { problem });
+        }
+        check_cell_motion(motion, &self.domain, self.time_step)?;
         check_values("gravity", self.background.gravity.to_array(), FINITE)?;
         check_values("drag", [self.background.drag, self.background.rotational_drag], NOT_NEGATIVE)?;
         self.particles.check(rows)?;

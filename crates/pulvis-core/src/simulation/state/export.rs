@@ -2,7 +2,7 @@
 
 use pulvis_math::{Packed4, Vector3};
 
-use super::{ListState, ParticleState, State, WallRecord};
+use super::{CellState, ListState, ParticleState, State, WallRecord};
 use crate::neighbours::{Moved, Skin};
 use crate::particles::{ForceTorque, Particles};
 use crate::simulation::{Outcome, Simulation};
@@ -20,6 +20,7 @@ impl Simulation {
             wall_states,
             wall_starts,
             domain,
+            cell,
             background,
             temperature,
             time_step,
@@ -65,6 +66,7 @@ impl Simulation {
             time: *time,
             time_step: *time_step,
             domain: *domain,
+            cell: CellState { motion: cell.motion, listed: cell.listed, numbers: cell.numbers() },
             background: *background,
             temperature: temperature.clone(),
             keeps_ledger: *accounting,

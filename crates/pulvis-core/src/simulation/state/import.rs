@@ -2,13 +2,14 @@
 
 use pulvis_math::{Packed4, Vector3};
 
-use super::{ListState, ParticleState, State, StateError, WallRecord};
+use super::{CellState, ListState, ParticleState, State, StateError, WallRecord};
 use crate::columns::NumberReader;
 use crate::contacts::{BrokenBonds, Interactions};
 use crate::ledger::Running;
 use crate::neighbours::{CellGrid, Moved, Skin};
 use crate::particles::{ForceTorque, Particle, Particles};
 use crate::simulation::Simulation;
+use crate::simulation::cell::Cell;
 use crate::walls::{Wall, WallState};
 
 impl Simulation {
@@ -31,9 +32,10 @@ impl Simulation {
             wall.point = Vector3::from(record.listed_point);
         }
         let particles = particles_of(&state.particles, state.next_id);
-        let &State { domain, background, time_step, .. } = state;
+        let &State { background, time_step, .. } = state;
+        let listed = state.cell.listed;
         let mut simulation =
-            Self::without_list(particles, interactions, walls, domain, background, time_step);
+            Self::without_list(particles, interactions, walls, listed, background, time_step);
         simulation.temperature.clone_from(&state.temperature);
         simulation.broken_bonds = BrokenBonds::new(&state.broken_bonds);
         simulation.check_models()?;
@@ -109,6 +111,9 @@ impl Simulation {
             self.wall_states[index] =
                 WallState::from_numbers(NumberReader::new(&format!("wall `{name}`"), motion))?;
         }
+        self.domain = state.domain;
+        let CellState { motion, listed, numbers } = &state.cell;
+        self.cell = Cell::from_numbers(*motion, *listed, NumberReader::new("the cell", numbers))?;
         self.running = Running::from_numbers(NumberReader::new("the energy ledger", &state.ledger))?;
         self.accounting = state.keeps_ledger;
         self.rebuilds = state.list.rebuilds;

@@ -10,7 +10,7 @@ pub use error::StateError;
 use crate::columns::NamedColumn;
 use crate::contacts::{BrokenBond, ContactRecords, ContactTotals};
 use crate::particles::{MaterialIndex, ParticleId};
-use pulvis_boundary::{Background, Domain, TemperatureProgram};
+use pulvis_boundary::{Background, CellMotion, Domain, TemperatureProgram};
 
 /// Everything that decides the next bit of a simulation, as plain columns. [`Simulation::import_state`] makes a simulation
 /// of it that continues the exported one, bit for bit, for any number of threads and on any instruction set.
@@ -30,6 +30,8 @@ pub struct State {
     pub time_step: f64,
     /// Space and its periods.
     pub domain: Domain,
+    /// How the periodic cell deforms.
+    pub cell: CellState,
     /// Gravity and drag.
     pub background: Background,
     /// Temperature over time, if laws are told one.
@@ -52,6 +54,17 @@ pub struct State {
     pub broken_bonds: Vec<BrokenBond>,
     /// The sums of the energy ledger so far, by name [J, and W for powers].
     pub ledger: Vec<(String, f64)>,
+}
+
+/// How the periodic cell deforms.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellState {
+    /// What leads it.
+    pub motion: CellMotion,
+    /// Space and its periods when the neighbour list was made.
+    pub listed: Domain,
+    /// What it keeps between steps, by name, in SI units.
+    pub numbers: Vec<(String, f64)>,
 }
 
 /// The particles, one entry a row, in the order of the engine's rows: that order decides the order of sums.

@@ -2,6 +2,7 @@
 
 use super::writer::{Writer, key, quantity, text};
 use super::{gravity, key_of_law, law_keys, write_time};
+use crate::scenario::cell::write_cell;
 use crate::scenario::controls::write_control;
 use crate::scenario::region::write_region;
 use crate::scenario::until::write_until;
@@ -34,6 +35,10 @@ impl Scenario {
                 let name = self.walls.get(*index).map_or("", |wall| wall.name.as_str());
                 writer.table(&format!("stages.walls.{}", key(name)));
                 write_control(writer, control);
+            }
+            if let Some(motion) = &stage.cell {
+                writer.table("stages.cell");
+                write_cell(writer, motion);
             }
             let switches = self.switches(stage, &before);
             if !switches.is_empty() {

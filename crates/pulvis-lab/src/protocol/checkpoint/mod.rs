@@ -1,5 +1,6 @@
 //! Checkpoints: everything that a run is at an instant, as a file.
 
+mod cell;
 mod find;
 mod keeper;
 mod planes;
@@ -102,6 +103,7 @@ pub(super) struct WatchRecord {
     pub(super) start_step: u64,
     pub(super) start_time: f64,
     pub(super) start_lengths: [Option<f64>; 3],
+    pub(super) start_strain: [f64; 6],
     pub(super) calm_looks: u32,
     pub(super) last_stress: Option<f64>,
 }

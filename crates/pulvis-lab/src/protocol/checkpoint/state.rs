@@ -1,4 +1,4 @@
-//! The state of a simulation as version 1 of the format has it.
+//! The state of a simulation as version 2 of the format has it.
 //!
 //! [`State`] may change with the engine; what stands in files may not. The conversions list every field, so that the compiler
 //! asks about each new one: another version of the format is due then.
@@ -11,6 +11,7 @@ use pulvis_core::{
 use pulvis_math::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::cell::{CellEntry, domain_of};
 use super::planes;
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -21,6 +22,8 @@ pub(super) struct StateRecord {
     lower: [f64; 3],
     upper: [f64; 3],
     periodic: [bool; 3],
+    tilts: [f64; 3],
+    cell: CellEntry,
     gravity: [f64; 3],
     drag: f64,
     rotational_drag: f64,
@@ -126,7 +129,8 @@ impl From<State> for StateRecord {
             step,
             time,
             time_step,
-            domain: Domain { extent: Cuboid { lower, upper }, periodic },
+            domain: Domain { extent: Cuboid { lower, upper }, periodic, tilts },
+            cell,
             background: Background { gravity, drag, rotational_drag },
             temperature,
             keeps_ledger,
@@ -146,6 +150,8 @@ impl From<State> for StateRecord {
             lower: lower.to_array(),
             upper: upper.to_array(),
             periodic,
+            tilts,
+            cell: cell.into(),
             gravity: gravity.to_array(),
             drag,
             rotational_drag,
@@ -177,6 +183,8 @@ impl TryFrom<StateRecord> for State {
             lower,
             upper,
             periodic,
+            tilts,
+            cell,
             gravity,
             drag,
             rotational_drag,
@@ -197,7 +205,8 @@ impl TryFrom<StateRecord> for State {
             step,
             time,
             time_step,
-            domain: Domain::periodic(Vector3::from(lower), Vector3::from(upper), periodic),
+            domain: domain_of(lower, upper, periodic, tilts),
+            cell: cell.into_state(periodic)?,
             background: Background { gravity: Vector3::from(gravity), drag, rotational_drag },
             temperature: temperature.map_err(|_| "its temperatures are none")?,
             keeps_ledger,

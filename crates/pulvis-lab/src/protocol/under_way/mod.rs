@@ -250,6 +250,9 @@ impl<'a> Run<'a> {
                 simulation.set_wall_present(*place, false);
             }
         }
+        if let Some(motion) = stage.cell {
+            simulation.set_cell_motion(motion).map_err(failed)?;
+        }
         if stage.form_bonds {
             simulation.form_bonds();
         }
