@@ -1,0 +1,46 @@
+"""Pulvis: a discrete element method engine for adhesive, elasto-plastic powders.
+
+Laws and pair contacts:
+    :func:`laws`, :func:`law`, :func:`contact`, :func:`probe`, :func:`collide`
+Many bodies:
+    :class:`Simulation` (step by step), :func:`run`, :func:`resume` and :class:`Run` (with files)
+
+All quantities are in SI units. Where a number is expected, a text with a unit will do: ``"100 N/m"``.
+"""
+
+from ._columns import Columns
+from ._native import __version__
+from .collision import Collisions, collide
+from .errors import InputError, InternalError, PulvisError, RunError, ViewError
+from .laws import Contact, Law, LawEntry, Parameter, contact, law, laws
+from .probing import ProbeCurve, probe
+from .runs import Run, resume, run
+from .simulation import Particles, Simulation, StageEnd, Wall
+
+__all__ = [
+    "Collisions",
+    "Columns",
+    "Contact",
+    "InputError",
+    "InternalError",
+    "Law",
+    "LawEntry",
+    "Parameter",
+    "Particles",
+    "ProbeCurve",
+    "PulvisError",
+    "Run",
+    "RunError",
+    "Simulation",
+    "StageEnd",
+    "ViewError",
+    "Wall",
+    "__version__",
+    "collide",
+    "contact",
+    "law",
+    "laws",
+    "probe",
+    "resume",
+    "run",
+]
