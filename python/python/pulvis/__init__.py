@@ -1,7 +1,8 @@
 """Pulvis: a discrete element method engine for adhesive, elasto-plastic powders.
 
 Laws and pair contacts:
-    :func:`laws`, :func:`law`, :func:`contact`, :func:`probe`, :func:`collide`
+    :func:`laws`, :func:`law`, :func:`contact`, :func:`probe`, :func:`collide`,
+    :class:`PythonLaw`
 Many bodies:
     :class:`Simulation` (step by step), :func:`run`, :func:`resume` and :class:`Run` (with files)
 
@@ -14,6 +15,7 @@ from .collision import Collisions, collide
 from .errors import InputError, InternalError, PulvisError, RunError, ViewError
 from .laws import Contact, Law, LawEntry, Parameter, contact, law, laws
 from .probing import ProbeCurve, probe
+from .pythonlaw import PythonLaw
 from .runs import Run, resume, run
 from .simulation import Particles, Simulation, StageEnd, Wall
 
@@ -29,6 +31,7 @@ __all__ = [
     "Particles",
     "ProbeCurve",
     "PulvisError",
+    "PythonLaw",
     "Run",
     "RunError",
     "Simulation",
