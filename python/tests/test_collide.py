@@ -118,9 +118,9 @@ def test_the_element_and_the_key_of_a_mistake_are_named(luding: pulvis.Law) -> N
 
 
 def test_a_collision_that_cannot_be_computed_is_a_run_error_of_its_element() -> None:
-    spring = pulvis.law("linear", k=[1e3, 1e308])
+    spring = pulvis.law("linear", k=1e300)
     with pytest.raises(pulvis.RunError, match="element 1: the time step is 0 s"):
-        pulvis.collide(spring, radius=1.0, mass=1e-300, velocity=1.0, method="engine")
+        pulvis.collide(spring, radius=1.0, mass=[1e300, 1e-300], velocity=1.0, method="engine")
 
 
 def test_trajectories_end_where_the_collision_does(luding: pulvis.Law) -> None:
