@@ -4,7 +4,7 @@ Laws and pair contacts:
     :func:`laws`, :func:`law`, :func:`contact`, :func:`probe`, :func:`collide`,
     :class:`PythonLaw`
 Many bodies:
-    :class:`Simulation` (step by step), :func:`run`, :func:`resume` and :class:`Run` (with files)
+    :class:`Simulation` (step by step), :func:`run`, :func:`resume` and :class:`Run` (with files), :func:`study` (many runs)
 
 All quantities are in SI units. Where a number is expected, a text with a unit will do: ``"100 N/m"``.
 """
@@ -18,8 +18,10 @@ from .probing import ProbeCurve, probe
 from .pythonlaw import PythonLaw
 from .runs import Run, resume, run
 from .simulation import Particles, Simulation, StageEnd, Wall
+from .studies import Case, Study, study
 
 __all__ = [
+    "Case",
     "Collisions",
     "Columns",
     "Contact",
@@ -36,6 +38,7 @@ __all__ = [
     "RunError",
     "Simulation",
     "StageEnd",
+    "Study",
     "ViewError",
     "Wall",
     "__version__",
@@ -46,4 +49,5 @@ __all__ = [
     "probe",
     "resume",
     "run",
+    "study",
 ]
