@@ -12,8 +12,8 @@ const LONGEST: usize = 400;
 const WITH_PATHS: [&str; 3] = ["ARCHITECTURE.md", "README.md", "CONTRIBUTING.md"];
 
 /// First components of the paths that documents name.
-const FOLDERS: [&str; 8] =
-    ["benchmarks/", "crates/", "docs/", "experiments/", "scripts/", "xtask/", ".ci/", ".cargo/"];
+const FOLDERS: [&str; 9] =
+    ["benchmarks/", "crates/", "docs/", "experiments/", "python/", "scripts/", "xtask/", ".ci/", ".cargo/"];
 
 /// Checks everything and reports every finding.
 pub fn run() -> Outcome {

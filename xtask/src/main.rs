@@ -10,6 +10,7 @@ mod expected;
 mod experiments;
 mod figures;
 mod process;
+mod python;
 mod scenarios;
 mod table;
 mod tests;
@@ -27,6 +28,7 @@ usage: cargo xtask <task>
   slow                 every law in beds of 1000 grains, 200 kills of runs, 100 000 damaged inputs, and a hundred times as many
                        random paths (half an hour)
   soak [MINUTES]       a driven bed for 10 minutes or as long as told: memory, ledger, contacts against brute force
+  python               the Python package: lints, wheel, and its tests in an environment of its own (minutes: it builds the engine)
   ci                   everything that must hold before a change is merged
   experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
   scenarios            shows every good and bad scenario of the tests to the pulvis command
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         ["slow"] => tests::run_slow(),
         ["soak"] => tests::soak("10"),
         ["soak", minutes] => tests::soak(minutes),
+        ["python"] => python::run_all(),
         ["ci"] => ci::run_all(),
         ["experiments"] => experiments::run(None),
         ["experiments", folder] => experiments::run(Some(folder)),

@@ -111,6 +111,20 @@ impl<'a> Vectors<'a> {
         self.len() == 0
     }
 
+    /// Where the vectors stand: the address of the first component of row 0, and the bytes from one row to the next. The
+    /// three components of a row stand side by side. For views of other languages, which must not outlive the next change
+    /// of the particles.
+    pub fn layout(self) -> (*const f64, usize) {
+        match self.0 {
+            Column::Packed4s(packed) => (packed.as_ptr().cast(), size_of::<Packed4>()),
+            Column::Forces(both) => (both.as_ptr().cast(), size_of::<ForceTorque>()),
+            Column::Torques(both) => {
+                let torque = std::mem::offset_of!(ForceTorque, torque);
+                (both.as_ptr().cast::<f64>().wrapping_byte_add(torque), size_of::<ForceTorque>())
+            }
+        }
+    }
+
     /// All of them, row by row.
     pub fn iter(self) -> impl Iterator<Item = Vector3> + use<'a> {
         (0..self.len()).map(move |row| self[row])

@@ -54,3 +54,24 @@ fn sums_over_contacts_are_those_of_a_look_at_every_contact_for_any_number_of_thr
     }
     assert!(all.iter().all(|totals| *totals == all[0]), "{all:?}");
 }
+
+#[test]
+fn vectors_stand_where_their_layout_says() {
+    let simulation = start(implosion(50, 9e-3, 3, viscous_luding()), 40.0);
+    let particles = simulation.particles();
+    let all = [
+        particles.positions(),
+        particles.velocities(),
+        particles.angular_velocities(),
+        particles.forces(),
+        particles.torques(),
+    ];
+    for vectors in all {
+        let (first, bytes) = vectors.layout();
+        for row in 0..vectors.len() {
+            let expected: *const f64 = &vectors[row].x;
+            assert_eq!(first.wrapping_byte_add(row * bytes), expected);
+            assert_eq!(expected.wrapping_add(2), &raw const vectors[row].z);
+        }
+    }
+}

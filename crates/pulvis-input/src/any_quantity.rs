@@ -3,7 +3,7 @@
 use crate::context::Reported;
 use crate::decimal::split_number;
 use crate::problem::Problem;
-use crate::quantity::{QuantityRule, parse_bare, parse_quantity};
+use crate::quantity::{QuantityRule, check_si, parse_bare, parse_quantity};
 use crate::shape::Shape;
 use crate::unit::Unit;
 use crate::value::Value;
@@ -37,6 +37,8 @@ impl Shape for AnyQuantity {
             Value::Integer(digits) | Value::Number(digits) => {
                 (parse_bare(digits, QuantityRule::of(Dimension::NONE)), Dimension::NONE)
             }
+            // A program that gives no unit means a pure number here as everybody does.
+            Value::Si(number) => (check_si(*number, QuantityRule::of(Dimension::NONE)), Dimension::NONE),
             _ => return Err(value.wrong_type(&self.describe())),
         };
         Ok((read.map_err(|error| value.refuse(error.into()))?, dimension))

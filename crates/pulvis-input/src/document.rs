@@ -52,6 +52,13 @@ impl Document {
         Ok(Self { source: Arc::new(source), root })
     }
 
+    /// The same file with all bare numbers in SI units, whatever the dimension of their keys: what a program has written.
+    #[must_use]
+    pub fn with_numbers_in_si(mut self) -> Self {
+        self.root.entries.values_mut().for_each(|entry| entry.node.count_in_si());
+        self
+    }
+
     /// The text and the values.
     pub(crate) fn parts(&self) -> (&Source, &Table) {
         (&self.source, &self.root)
@@ -185,5 +192,37 @@ fn collect_replaced_below(node: &Node, path: String, paths: &mut Vec<String>) {
             }
         }
         _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::{Dimension, Integer, List, QuantityRule};
+
+    #[test]
+    fn bare_numbers_of_a_program_are_in_si_and_errors_show_them() {
+        let text = "radius = [1e-3, 2]\ncount = 7\nseed = 9007199254740993\nmass = \"2 g\"\nspeed = -1";
+        let document = Document::from_str("<dict>", text).unwrap().with_numbers_in_si();
+        let speed = QuantityRule::of(Dimension::VELOCITY).above(0.0);
+        let mut read = None;
+        let refused = document.read(|mut root| {
+            let radii = root.required("radius", List::of(QuantityRule::of(Dimension::LENGTH)))?;
+            let mass = root.required("mass", Dimension::MASS)?;
+            read = Some((
+                radii,
+                mass,
+                root.required("count", Integer::ANY)?,
+                root.required("seed", Integer::ANY)?,
+            ));
+            root.required("speed", speed)
+        });
+        // A whole number beyond 2^53 keeps its last digit.
+        assert_eq!(read, Some((vec![1e-3, 2.0], 2e-3, 7, 9_007_199_254_740_993)));
+        let message = refused.unwrap_err().to_string();
+        assert!(message.starts_with("error: <dict>:5:9: speed: -1 m/s is out of range"), "{message}");
+        assert!(message.contains("5| speed = -1") && !message.contains("note"), "{message}");
     }
 }

@@ -80,6 +80,22 @@ impl Node {
         }
     }
 
+    /// Takes bare numbers, here and below, as values in SI. A whole number that no double holds stays as it is: it counts
+    /// something.
+    pub(crate) fn count_in_si(&mut self) {
+        match &mut self.value {
+            Value::Integer(digits) | Value::Number(digits) => {
+                let whole = matches!(digits.parse::<i64>(), Ok(whole) if whole.unsigned_abs() > 1 << 53);
+                if let Some(number) = digits.replace('_', "").parse().ok().filter(|_| !whole) {
+                    self.value = Value::Si(number);
+                }
+            }
+            Value::Table(table) => table.entries.values_mut().for_each(|entry| entry.node.count_in_si()),
+            Value::List(items) => items.iter_mut().for_each(Self::count_in_si),
+            Value::Text(_) | Value::Si(_) | Value::Boolean(_) | Value::Date(_) => {}
+        }
+    }
+
     fn from_toml(value: &DeValue<'_>, span: Range<usize>) -> Self {
         let value = match value {
             DeValue::String(text) => Value::Text(text.to_string()),

@@ -5,6 +5,8 @@
 mod protocol_scenarios;
 #[path = "protocol_run/resume.rs"]
 mod resume;
+#[path = "protocol_run/session.rs"]
+mod session;
 
 use std::fs;
 use std::path::Path;

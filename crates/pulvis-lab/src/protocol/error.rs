@@ -134,6 +134,21 @@ pub enum RunError {
         /// The step of the last checkpoint, if there is one.
         saved: Option<u64>,
     },
+    /// What happened in a step of a session cannot be right.
+    #[error("stage `{stage}`, {source}\n  likely cause: {cause}")]
+    Stopped {
+        /// The stage.
+        stage: String,
+        /// Why.
+        source: Box<StepError>,
+        /// What has led to it, as far as the state tells.
+        cause: String,
+    },
+    /// A session is asked to go on after it has failed.
+    #[error(
+        "the simulation has failed and stands in the middle of a step: it can be looked at, but not go on"
+    )]
+    Broken,
     /// Output could not be written.
     #[error(transparent)]
     Output(#[from] IoError),

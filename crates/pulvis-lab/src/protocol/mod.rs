@@ -2,6 +2,7 @@
 //!
 //! [`prepare`] turns a scenario into a simulation and refuses what only its particles can tell;
 //! [`preflight`] says what a run will be like; [`run`] does it and writes its files; [`resume`] goes on with an interrupted one.
+//! A [`Session`] takes the same steps in the hands of a program, without files.
 
 mod allow;
 mod averages;
@@ -30,10 +31,12 @@ mod refusal;
 mod report;
 mod resources;
 mod run;
+mod session;
 mod setup;
 mod snapshots;
 mod stage;
 mod start;
+mod switch;
 mod timing;
 mod typical;
 mod under_way;
@@ -50,8 +53,9 @@ pub use measure::{Measure, column_names};
 pub use memory::{MemoryForecast, memory_forecast};
 pub use resources::size_in_words;
 pub use run::{PictureOptions, Progress, RunOptions, RunSummary, StageResult, resume, run};
+pub use session::{Advance, Session};
 pub use setup::{Prepared, StagePlan, prepare};
 pub use stage::Ending;
 pub(crate) use start::frame_of_checkpoint;
-pub use start::load_scenario;
+pub use start::{load_scenario, read_scenario};
 pub use warnings::warnings;

@@ -133,8 +133,20 @@ fn enter_stages(walls: &mut [Wall], stages: &[Stage], mut ended: bool) {
 /// # Errors
 /// All mistakes of the file, or its checkpoint cannot be used.
 pub fn load_scenario(path: &Path, set: &[(String, Replacement)]) -> Result<Scenario, PrepareError> {
-    let mut document = Document::load(path)?;
-    let folder = path.parent().unwrap_or(Path::new(""));
+    read_scenario(Document::load(path)?, Some(path), set)
+}
+
+/// As [`load_scenario`], from a parsed file that stands at `path`, or from a text that is in no file: then paths in it are
+/// relative to the current folder.
+///
+/// # Errors
+/// As of [`load_scenario`].
+pub fn read_scenario(
+    mut document: Document,
+    path: Option<&Path>,
+    set: &[(String, Replacement)],
+) -> Result<Scenario, PrepareError> {
+    let folder = path.and_then(Path::parent).unwrap_or(Path::new(""));
     if let Some((start, place)) = document.start_from(folder)? {
         let refused = |error| document.error_at(&place, Problem::Refused(Box::new(error)));
         let Found { checkpoint, .. } = of_run(&start).map_err(refused)?;
@@ -143,7 +155,7 @@ pub fn load_scenario(path: &Path, set: &[(String, Replacement)]) -> Result<Scena
         document =
             document.with_missing_from(&base, &["title", "start_from", "allow", "stages", "output"], &place);
     }
-    Ok(Scenario::from_document(&document.with_overrides(set)?, Some(path))?)
+    Ok(Scenario::from_document(&document.with_overrides(set)?, path)?)
 }
 
 /// The scenario of a checkpoint, and the stage in it.

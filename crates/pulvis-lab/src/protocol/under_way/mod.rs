@@ -6,9 +6,8 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use pulvis_core::walls::WallMotion;
 use pulvis_core::{Interactions, Simulation, StepError};
-use pulvis_input::scenario::{Scenario, Snapshots as SnapshotPlan, WallControl};
+use pulvis_input::scenario::{Scenario, Snapshots as SnapshotPlan};
 use pulvis_io::checkpoint::write_text;
 use pulvis_io::table::TimeSeriesWriter;
 
@@ -26,6 +25,7 @@ use super::run::{PictureOptions, Progress, RunOptions, RunSummary, StageResult, 
 use super::setup::{Prepared, StagePlan};
 use super::snapshots::Snapshots;
 use super::stage::{Ending, StageWatch};
+use super::switch::switch;
 
 /// The column of the relative closing error.
 const RELATIVE_ERROR: &str = "relative_error";
@@ -221,41 +221,8 @@ impl<'a> Run<'a> {
 
     fn switch_to(&mut self, number: usize) -> Result<(), RunError> {
         let (plan, stage) = (&self.plans[number], &self.scenario.stages[number]);
-        let simulation = &mut self.simulation;
-        if let Some(region) = &stage.remove {
-            simulation.remove_within(region);
-        }
-        let failed = |source| RunError::Switch { stage: stage.name.clone(), source };
-        if self.interactions != plan.interactions {
-            simulation.set_interactions(plan.interactions.clone()).map_err(failed)?;
-            self.interactions = plan.interactions.clone();
-        }
-        if *simulation.background() != plan.background {
-            simulation.set_background(plan.background).map_err(failed)?;
-        }
-        if simulation.time_step().to_bits() != plan.time_step.to_bits() {
-            simulation.set_time_step(plan.time_step).map_err(failed)?;
-        }
-        // A wall that was on its way by a function of time has arrived.
-        for place in (0..simulation.walls().len()).filter(|_| self.walls_arrive) {
-            let changed = plan.wall_changes.iter().any(|(wall, _)| *wall == place);
-            if !changed && simulation.walls()[place].motion.law().duration().is_some() {
-                simulation.set_wall_motion(place, WallMotion::Fixed).map_err(failed)?;
-            }
-        }
+        switch(&mut self.simulation, &mut self.interactions, plan, stage, self.walls_arrive)?;
         self.walls_arrive = true;
-        for (place, control) in &plan.wall_changes {
-            simulation.set_wall_motion(*place, control.motion().unwrap_or_default()).map_err(failed)?;
-            if matches!(control, WallControl::Removed) {
-                simulation.set_wall_present(*place, false);
-            }
-        }
-        if let Some(motion) = stage.cell {
-            simulation.set_cell_motion(motion).map_err(failed)?;
-        }
-        if stage.form_bonds {
-            simulation.form_bonds();
-        }
         Ok(())
     }
 

@@ -1,0 +1,69 @@
+"""Many runs of one scenario."""
+
+from __future__ import annotations
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pulvis
+
+OVER = {"contacts.glass-glass.normal.k": [500.0, 2000.0], "seed": [1, 2]}
+
+
+def test_a_study_has_the_results_of_its_runs_alone(gas: dict[str, Any], tmp_path: Path) -> None:
+    study = pulvis.study(gas, OVER, tmp_path / "study", processes=2)
+    assert [case.settings["seed"] for case in study] == [1, 2, 1, 2] and not study.failed
+    for case in study:
+        alone = pulvis.Simulation(gas, set=case.settings)
+        alone.run()
+        for name, value in alone.measure().items():
+            assert np.array_equal(case.values[name], value, equal_nan=True), name
+    assert np.array_equal(study[3].run.timeseries.kinetic[-1], study[3].values["kinetic"])
+
+
+def test_runs_that_are_done_are_not_repeated_and_an_interrupted_one_goes_on(
+    gas: dict[str, Any], tmp_path: Path
+) -> None:
+    with ThreadPoolExecutor(2) as executor:
+        first = pulvis.study(gas, OVER, tmp_path / "study", executor=executor)
+        files = [case.folder / "run/timeseries.csv" for case in first]
+        written = [file.stat().st_mtime_ns for file in files]
+        # As if the second case had been stopped before it was recorded.
+        (first[1].folder / "case.json").unlink()
+        again = pulvis.study(gas, OVER, tmp_path / "study", executor=executor)
+    assert [case.values["kinetic"] for case in again] == [case.values["kinetic"] for case in first]
+    now = [file.stat().st_mtime_ns for file in files]
+    assert [old == new for old, new in zip(written, now)] == [True, False, True, True]
+
+
+def test_a_run_that_fails_is_recorded_and_the_others_go_on(gas: dict[str, Any], tmp_path: Path) -> None:
+    pandas = pytest.importorskip("pandas")
+    settings = [{"seed": 1}, {"contacts.glass-glass.normal.k": -1}, {"contacts.glass-glass.normal.q": 1}]
+    with ThreadPoolExecutor(1) as executor:
+        study = pulvis.study(
+            gas, settings, tmp_path / "study", executor=executor, results=lambda run: {"rows": len(run.timeseries.time)}
+        )
+    assert len(study.failed) == 2 and study[0].error is None
+    assert study[1].error is not None and "-1 N/m is out of range" in study[1].error
+    frame = study.to_dataframe()
+    assert isinstance(frame, pandas.DataFrame) and frame["rows"].notna().tolist() == [True, False, False]
+
+
+def test_a_folder_of_another_study_is_left_alone(gas: dict[str, Any], tmp_path: Path) -> None:
+    with ThreadPoolExecutor(1) as executor:
+        pulvis.study(gas, {"seed": [1]}, tmp_path / "study", executor=executor)
+        before = json.loads((tmp_path / "study/study.json").read_text())
+        with pytest.raises(pulvis.InputError, match="of other values"):
+            pulvis.study(gas, {"seed": [2]}, tmp_path / "study", executor=executor)
+        (tmp_path / "other").mkdir()
+        (tmp_path / "other/mine.txt").write_text("mine")
+        with pytest.raises(pulvis.InputError, match="holds no study"):
+            pulvis.study(gas, {"seed": [2]}, tmp_path / "other", executor=executor)
+        with pytest.raises(pulvis.InputError, match="nothing to study"):
+            pulvis.study(gas, {"seed": []}, tmp_path / "new", executor=executor)
+    assert json.loads((tmp_path / "study/study.json").read_text()) == before
