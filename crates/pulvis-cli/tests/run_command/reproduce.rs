@@ -148,13 +148,27 @@ fn runs_that_start_from_one_another_show_the_features_that_springs_have() {
     let output = from.join("out");
     let first = reproduce(&from, &output, &[]);
     assert_eq!(first.status.code(), Some(0), "{}", error(&first));
-    assert!(error(&first).contains("7 of 8 features seen"), "{}", error(&first));
+    assert!(error(&first).contains("8 of 9 features seen"), "{}", error(&first));
     let report = fs::read_to_string(output.join("report.md")).unwrap();
     assert!(
-        report.contains("| soft | hard | mean |") && report.contains("not seen: springs do not"),
+        report.contains("| soft | hard | mean | spread | standard error |")
+            && report.contains("not seen: springs do not"),
         "{report}"
     );
     assert!(output.join("runs/springs/hard/cycles/timeseries.csv").exists());
+
+    // The closed form y = x of the second panel, from its start to the last row.
+    let points: Vec<[f64; 2]> = fs::read_to_string(output.join("springs.csv"))
+        .unwrap()
+        .lines()
+        .filter(|line| line.contains(",y = x,"))
+        .map(|line| {
+            let numbers: Vec<f64> = line.rsplit(',').take(2).map(|cell| cell.parse().unwrap()).collect();
+            [numbers[1], numbers[0]]
+        })
+        .collect();
+    assert!(points.len() > 100 && (points[points.len() - 1][0] - 6e-3).abs() < 1e-5, "{}", points.len());
+    assert!(points[0][0] == 1e-3 && points.iter().all(|[x, y]| (y / x - 1.0).abs() < 1e-12));
 
     // What is there already is taken if it is asked for, and gives the same.
     let table = fs::read(output.join("springs.csv")).unwrap();

@@ -1,6 +1,8 @@
 //! Contacts one at a time, with forces, for output and analysis.
 
-use pulvis_contact::{ContactKinematics, MemoryLayout, Pair};
+use pulvis_contact::{
+    ContactInputs, ContactKinematics, ContactResponse, MemoryLayout, Pair, ROOM_TEMPERATURE, levels,
+};
 use pulvis_math::Vector3;
 
 use super::block::{ContactGroup, Partner};
@@ -82,6 +84,23 @@ pub(crate) fn view_contacts(views: Views<'_>, see: &mut dyn FnMut(&ContactView<'
     }
 }
 
+/// The response of a contact of a group over a step of zero duration; `columns` are its memory. As that of
+/// [`ContactModel::respond`](pulvis_contact::ContactModel::respond), which lays the memory out anew for every call.
+fn respond(group: &ContactGroup, seen: &Seen, columns: &mut [f64]) -> ContactResponse<f64> {
+    let (laws, slots) = (&group.model.laws, *group.layout.slots());
+    let (time_step, temperature) = (0.0, ROOM_TEMPERATURE);
+    let inputs = ContactInputs { pair: &seen.pair, motion: &seen.motion, time_step, temperature };
+    let bonded = laws.bond.as_ref().map(|bond| bond.respond(inputs, slots.bond(), columns));
+    let beside = bonded.as_ref().map_or(seen.motion, |bonded| bonded.beside(&seen.motion));
+    let inputs = ContactInputs { motion: &beside, ..inputs };
+    let mut response =
+        laws.respond::<f64, _, _, { levels::ALL }>(&group.model.normal, &slots, inputs, columns);
+    if let Some(bonded) = bonded {
+        bonded.add_to(&mut response);
+    }
+    response
+}
+
 impl<'a> Views<'a> {
     /// How deep each contact of a block is.
     pub(crate) fn overlaps(self, block: usize) -> impl Iterator<Item = Deep> + 'a {
@@ -118,7 +137,7 @@ impl<'a> Views<'a> {
         if seen.motion.overlap <= -group.interaction_range {
             return None;
         }
-        let answer = group.model.respond(&seen.pair, &seen.motion, 0.0, after);
+        let answer = respond(group, &seen, after);
         if seen.motion.overlap <= 0.0 && answer.force == Vector3::zero() {
             return None;
         }
