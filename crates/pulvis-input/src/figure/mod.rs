@@ -7,7 +7,7 @@
 mod axis;
 mod check;
 mod data;
-mod feature;
+pub(crate) mod feature;
 mod notes;
 mod of_run;
 mod panel;
@@ -15,7 +15,7 @@ mod quantity;
 mod reference;
 mod runs;
 mod series;
-mod settings;
+pub(crate) mod settings;
 
 pub use axis::FigureAxis;
 pub use check::{Against, FigureCheck};
@@ -188,6 +188,6 @@ fn can_be_measured(
 }
 
 /// A text that was broken into lines for the eye.
-fn one_paragraph(text: &str) -> String {
+pub(crate) fn one_paragraph(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
