@@ -51,6 +51,12 @@ pub(super) fn combine(
     };
     let base = (around.load)(file).and_then(|document| document.with_overrides(set));
     let base = base.map_err(|errors| refuse(errors, &table.location("scenario"), ""))?;
+    let headlines = |errors: &InputErrors| -> Vec<String> {
+        errors.errors().iter().map(crate::InputError::headline).collect()
+    };
+    // Mistakes that no value changes are those of the scenario alone.
+    let own =
+        Scenario::from_document(&base, Some(file)).map_or_else(|errors| headlines(&errors), |_| Vec::new());
     let mut points: Vec<StudyPoint> = Vec::new();
     let mut refused: Vec<(Location, Reported)> = Vec::new();
     for choice in choices(variables) {
@@ -58,14 +64,15 @@ pub(super) fn combine(
         match scenario(&base, file, variables, &choice) {
             Ok(scenario) => points.push(StudyPoint { name, choice, scenario }),
             Err(errors) => {
-                let location = culprit(variables, &choice, &errors).unwrap_or(table.location("scenario"));
+                let is_own = headlines(&errors).iter().all(|headline| own.contains(headline));
+                let blamed = culprit(variables, &choice, &errors).filter(|_| !is_own);
+                let with = match &blamed {
+                    Some(_) => format!(" with {}", words(variables, &choice)),
+                    None => String::new(),
+                };
+                let location = blamed.unwrap_or(table.location("scenario"));
                 // A value that no combination can have is told once.
                 if !refused.iter().any(|(known, _)| *known == location) {
-                    let with = if choice.is_empty() {
-                        String::new()
-                    } else {
-                        format!(" with {}", words(variables, &choice))
-                    };
                     let reported = refuse(errors, &location, &with);
                     refused.push((location, reported));
                 }
@@ -129,7 +136,7 @@ fn words(variables: &[StudyVariable], choice: &[usize]) -> String {
 /// The name of a point's folder. It depends on its values alone, so that a study to which values are added finds its runs.
 fn name(variables: &[StudyVariable], choice: &[usize]) -> String {
     let parts: Vec<String> = chosen(variables, choice)
-        .map(|(variable, value)| format!("{}-{}", plain(&variable.label), plain(&value.name)))
+        .map(|(variable, value)| format!("{}={}", plain(&variable.label), plain(&value.name)))
         .collect();
     match parts.join("_") {
         none if none.is_empty() => "scenario".to_owned(),

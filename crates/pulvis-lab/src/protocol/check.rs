@@ -283,7 +283,7 @@ fn forecast(
     }
 }
 
-pub(super) fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForecast> {
+pub(crate) fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForecast> {
     let plans = scenario.stages.iter().zip(&prepared.stages);
     plans
         .map(|(stage, plan)| {

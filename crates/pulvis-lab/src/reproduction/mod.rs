@@ -18,9 +18,11 @@ mod series;
 mod workplace;
 
 pub use features::SeenFeature;
+pub(crate) use features::measure;
 pub use judge::Judged;
 pub use report::{files, report};
 pub use run::{Attempt, run_all};
+pub(crate) use series::FinishedRun;
 pub use workplace::{RunDone, Seats, Workplace};
 
 use crate::collision::CollisionError;
