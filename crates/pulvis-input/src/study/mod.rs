@@ -70,10 +70,21 @@ impl Study {
     /// # Errors
     /// All mistakes of the file, and those of the scenario with the values that cause them.
     pub fn load(file: &Path, load: LoadDocument<'_>) -> Result<Self, InputErrors> {
-        let document = Document::load(file)?;
+        Self::from_document(&Document::load(file)?, file, load)
+    }
+
+    /// As [`Self::load`], of a parsed file that stands at `file`.
+    ///
+    /// # Errors
+    /// As of [`Self::load`].
+    pub fn from_document(
+        document: &Document,
+        file: &Path,
+        load: LoadDocument<'_>,
+    ) -> Result<Self, InputErrors> {
         let folder = file.parent().unwrap_or(Path::new(""));
         let around = Surroundings { folder, load, elsewhere: RefCell::default() };
-        let read = document.read(|root| walk(root, file, &document, &around));
+        let read = document.read(|root| walk(root, file, document, &around));
         let mut mistakes = around.elsewhere.into_inner();
         match read {
             Ok(study) if mistakes.is_empty() => Ok(study),

@@ -49,8 +49,9 @@ pub(super) fn combine(
             Problem::rule(found, "a scenario of `pulvis run` with values that it can have"),
         )
     };
-    let base = (around.load)(file).and_then(|document| document.with_overrides(set));
-    let base = base.map_err(|errors| refuse(errors, &table.location("scenario"), ""))?;
+    let plain = (around.load)(file).map_err(|errors| refuse(errors, &table.location("scenario"), ""))?;
+    let base = plain.with_overrides(set);
+    let base = base.map_err(|errors| refuse(errors, &table.location("set"), " with these values"))?;
     let headlines = |errors: &InputErrors| -> Vec<String> {
         errors.errors().iter().map(crate::InputError::headline).collect()
     };
@@ -152,4 +153,51 @@ fn name(variables: &[StudyVariable], choice: &[usize]) -> String {
 fn hash(text: &str) -> u64 {
     text.bytes()
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+    use crate::document::Document;
+    use crate::study::Study;
+    use std::path::Path;
+
+    /// A study of a sphere at a wall, with these tables of variables.
+    fn study(over: &str) -> Study {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_studies/scenarios");
+        let text = format!(
+            "[study]\ntitle = 'a'\nscenario = {:?}\nseeds = [3, 4]\n{over}\n[[measures]]\nkey = 'E'\nwhat = 'e'\nvalue = 'last'\ny = 'kinetic'\n",
+            folder.join("press.toml")
+        );
+        let document = Document::from_str("study.toml", &text).unwrap();
+        Study::from_document(&document, Path::new("study.toml"), &|path| Document::load(path)).unwrap()
+    }
+
+    #[test]
+    fn points_are_all_combinations_and_their_names_depend_on_their_own_values_alone() {
+        let over = "[[study.over]]\nkey = 'contacts.grain-plate.normal.kc'\nfrom = '1 N/m'\nto = '100 N/m'\npoints = 3\nspacing = 'log'\n\
+                    [[study.over]]\nlabel = 'grain'\nnames = ['soft', 'hard']\nset = [{ 'contacts.grain-plate.normal.k1' = '100 N/m', \
+                    'contacts.grain-plate.normal.kp' = '300 N/m' }, { 'contacts.grain-plate.normal.kp' = '900 N/m', \
+                    'contacts.grain-plate.normal.k1' = '0.2 kN/m' }]";
+        let both = study(over);
+        let names: Vec<&str> = both.points.iter().map(|point| point.name.as_str()).collect();
+        let expected = ["kc=1-N-m_grain=soft", "kc=1-N-m_grain=hard", "kc=10-N-m_grain=soft"];
+        assert_eq!((names.len(), &names[..3]), (6, &expected[..]));
+        assert!(both.variables[0].logarithmic && !both.variables[1].logarithmic);
+        let numbers: Vec<Option<f64>> =
+            both.variables[1].values.iter().map(|value| value.numbers[0]).collect();
+        assert_eq!(
+            numbers,
+            [Some(100.0), Some(200.0)],
+            "the same key of each value, in whatever order they stand"
+        );
+        let resolved = both.points[3].scenario.to_resolved_toml("0");
+        for value in ["kc = \"10.0 N/m\"", "k1 = \"200.0 N/m\"", "kp = \"900.0 N/m\""] {
+            assert!(resolved.contains(value), "{value}: {resolved}");
+        }
+        let one = study(&over.replace("points = 3", "points = 2"));
+        assert_eq!(one.points[1].name, names[1]);
+        assert_eq!(study("").points[0].name, "scenario");
+    }
 }

@@ -63,7 +63,15 @@ struct Written {
 pub(super) fn read_variables(study: &mut TableReader<'_>) -> Result<Vec<StudyVariable>, Reported> {
     let tables = study.tables("over")?;
     let variables: Vec<_> = tables.into_iter().map(read_variable).collect();
-    variables.into_iter().collect()
+    let variables: Vec<StudyVariable> = variables.into_iter().collect::<Result<_, _>>()?;
+    for (index, variable) in variables.iter().enumerate() {
+        if variables.iter().take(index).any(|other| other.label == variable.label) {
+            let found = format!("two [[study.over]] are called `{}`", variable.label);
+            let problem = Problem::rule(found, "a `label` of its own for each");
+            return Err(study.refuse_at(&variable.location, problem));
+        }
+    }
+    Ok(variables)
 }
 
 fn read_variable(mut table: TableReader<'_>) -> Result<StudyVariable, Reported> {

@@ -29,9 +29,37 @@ pub(crate) fn run_state(scenario: &Scenario, version: &str, folder: &Path) -> Re
     let Ok(record) = std::fs::read_to_string(folder.join(RECORD)) else {
         return look(folder, true).map(|_| RunState::Fresh);
     };
-    Ok(match (record == scenario.to_resolved_toml(version), has_ended(folder)) {
+    let resolved = scenario.to_resolved_toml(version);
+    Ok(match (essence(&record).eq(essence(&resolved)), has_ended(folder)) {
         (false, _) => look(folder, true).map(|_| RunState::Other)?,
         (true, false) => RunState::Begun,
         (true, true) => RunState::Complete,
     })
+}
+
+/// The version and the keys of a record, without the remarks on the file that they come from: that may be called by another
+/// path.
+fn essence(record: &str) -> impl Iterator<Item = &str> {
+    record
+        .lines()
+        .enumerate()
+        .filter(|(number, line)| *number == 0 || !line.starts_with('#'))
+        .map(|(_, line)| line)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_path_of_the_scenario_is_not_part_of_a_run_but_version_and_keys_are() {
+        let record = |version: &str, path: &str, seed: u32| {
+            format!("# Pulvis {version}\n# resolved from {path} with seed {seed}\nseed = {seed}\n")
+        };
+        let first = record("1", "a/s.toml", 3);
+        let same = |other: &str| essence(&first).eq(essence(other));
+        assert!(same(&record("1", "s.toml", 3)));
+        assert!(!same(&record("2", "a/s.toml", 3)) && !same(&record("1", "a/s.toml", 4)));
+        assert!(!same("# Pulvis 1\n"));
+    }
 }

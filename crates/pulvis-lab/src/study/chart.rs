@@ -80,7 +80,7 @@ fn over_variable(
         let drawn = own.iter().filter(|(.., result)| result.mean.is_finite());
         let (points, errors): (Vec<_>, Vec<_>) =
             drawn.map(|(x, _, result)| ((*x, result.mean), result.standard_error.unwrap_or(0.0))).unzip();
-        let name = name(study, &others);
+        let name = name(study, measure, &others);
         if let Some(expected) = &measure.expected {
             let values = own.iter().filter_map(|(x, index, _)| Some((*x, *expected.values.get(*index)?)));
             // One value for all curves is one line.
@@ -110,14 +110,18 @@ fn curves(study: &Study) -> Vec<Vec<usize>> {
     curves
 }
 
-/// What a curve is called: the values of the other variables.
-fn name(study: &Study, others: &[usize]) -> String {
+/// What a curve is called: the values of the other variables. One that is alone needs no name.
+fn name(study: &Study, measure: &StudyMeasure, others: &[usize]) -> String {
     let value = |(variable, choice): (&StudyVariable, &usize)| {
         let value = variable.values.get(*choice)?;
         Some(format!("{} = {}", variable.label, value.name))
     };
     let all: Vec<String> = study.variables.iter().skip(1).zip(others).filter_map(value).collect();
-    if all.is_empty() { "mean over the runs".to_owned() } else { all.join(", ") }
+    if all.is_empty() && measure.expected.is_some() {
+        "mean over the runs".to_owned()
+    } else {
+        all.join(", ")
+    }
 }
 
 /// Without variables: each run, and their mean.
