@@ -180,30 +180,29 @@ fn describe(study: &Study, plan: &Plan, results: &StudyResults, seconds: f64) ->
     if passed + missed + open > 0 {
         let _ = writeln!(text, "{passed} of {} means as expected", passed + missed + open);
     }
-    for (point, of_measures) in study
-        .points
-        .iter()
-        .zip(&results.points)
-        .enumerate()
-        .map(|(index, (point, own))| ((index, point), own))
-    {
-        for (measure, result) in study.measures.iter().zip(of_measures) {
-            if let (Some(Verdict::Missed), Some(expected)) = (result.verdict, &measure.expected) {
-                let value = expected.values.get(point.0).copied().unwrap_or(f64::NAN);
-                let [mean, value, allowed] = [result.mean, value, result.allowed.unwrap_or(f64::NAN)]
-                    .map(|number| significant(number, 5));
-                let _ = writeln!(
-                    text,
-                    "missed: {} at {}: {mean}, expected {value} within {allowed}",
-                    measure.key, point.1.name
-                );
-            }
-        }
-    }
+    text += &missed_means(study, results);
     let _ = writeln!(
         text,
         "written to {}:\n  report.html, report.md, runs.csv, study.csv, study.json, PNG and SVG of each measure, runs/",
         plan.folder.display()
     );
+    text
+}
+
+/// A line for each mean that is not as it is expected to be.
+fn missed_means(study: &Study, results: &StudyResults) -> String {
+    let mut text = String::new();
+    for (index, (point, of_measures)) in study.points.iter().zip(&results.points).enumerate() {
+        for (measure, result) in study.measures.iter().zip(of_measures) {
+            let (Some(Verdict::Missed), Some(expected)) = (result.verdict, &measure.expected) else {
+                continue;
+            };
+            let value = expected.values.get(index).copied().unwrap_or(f64::NAN);
+            let numbers = [result.mean, value, result.allowed.unwrap_or(f64::NAN)];
+            let [mean, value, allowed] = numbers.map(|number| significant(number, 5));
+            let (key, name) = (&measure.key, &point.name);
+            let _ = writeln!(text, "missed: {key} at {name}: {mean}, expected {value} within {allowed}");
+        }
+    }
     text
 }

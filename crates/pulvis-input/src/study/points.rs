@@ -52,9 +52,6 @@ pub(super) fn combine(
     let plain = (around.load)(file).map_err(|errors| refuse(errors, &table.location("scenario"), ""))?;
     let base = plain.with_overrides(set);
     let base = base.map_err(|errors| refuse(errors, &table.location("set"), " with these values"))?;
-    let headlines = |errors: &InputErrors| -> Vec<String> {
-        errors.errors().iter().map(crate::InputError::headline).collect()
-    };
     // Mistakes that no value changes are those of the scenario alone.
     let own =
         Scenario::from_document(&base, Some(file)).map_or_else(|errors| headlines(&errors), |_| Vec::new());
@@ -65,16 +62,13 @@ pub(super) fn combine(
         match scenario(&base, file, variables, &choice) {
             Ok(scenario) => points.push(StudyPoint { name, choice, scenario }),
             Err(errors) => {
-                let is_own = headlines(&errors).iter().all(|headline| own.contains(headline));
-                let blamed = culprit(variables, &choice, &errors).filter(|_| !is_own);
-                let with = match &blamed {
-                    Some(_) => format!(" with {}", words(variables, &choice)),
-                    None => String::new(),
-                };
+                let blamed = culprit(variables, &choice, &errors)
+                    .filter(|_| !headlines(&errors).iter().all(|headline| own.contains(headline)));
+                let with = blamed.as_ref().map(|_| format!(" with {}", words(variables, &choice)));
                 let location = blamed.unwrap_or(table.location("scenario"));
                 // A value that no combination can have is told once.
                 if !refused.iter().any(|(known, _)| *known == location) {
-                    let reported = refuse(errors, &location, &with);
+                    let reported = refuse(errors, &location, &with.unwrap_or_default());
                     refused.push((location, reported));
                 }
             }
@@ -84,6 +78,11 @@ pub(super) fn combine(
         Some((_, reported)) => Err(*reported),
         None => Ok(Combined { points, scenario_text: base.text().to_owned() }),
     }
+}
+
+/// The mistakes, as they are told.
+fn headlines(errors: &InputErrors) -> Vec<String> {
+    errors.errors().iter().map(crate::InputError::headline).collect()
 }
 
 /// Every combination of the values, those of the last variable first.

@@ -177,23 +177,8 @@ fn read_together(table: &mut TableReader<'_>) -> Result<Read, Reported> {
         return Err(table.refuse("names", Problem::WrongLength { found, expected }));
     }
     let rows: Vec<_> = tables.into_iter().map(read_row).collect();
-    let rows = rows.into_iter().collect::<Result<Vec<_>, Reported>>()?;
-    let paths: Vec<String> =
-        rows.first().map(|(row, _)| row.iter().map(|(path, _)| path.clone()).collect()).unwrap_or_default();
-    for (row, location) in &rows {
-        let own: Vec<&String> = row.iter().map(|(path, _)| path).collect();
-        if own.len() != paths.len() || !paths.iter().all(|path| own.contains(&path)) || paths.is_empty() {
-            let own: Vec<String> = own.into_iter().cloned().collect();
-            let problem = Problem::rule(
-                format!("the keys {}", own.join(", ")),
-                format!("those of the first value: {}", paths.join(", ")),
-            );
-            return Err(table.refuse_at(location, problem));
-        }
-    }
-    let number = |row: &[(String, Written)], path: &str| {
-        row.iter().find(|(own, _)| own == path).and_then(|(_, value)| value.number)
-    };
+    let rows = rows.into_iter().collect::<Result<Vec<Row>, Reported>>()?;
+    let paths = same_keys(table, &rows)?;
     let key = |path: &String| StudyKey {
         path: path.clone(),
         unit: unit_of(rows.iter().map(|(row, _)| number(row, path))),
@@ -203,14 +188,32 @@ fn read_together(table: &mut TableReader<'_>) -> Result<Read, Reported> {
         let first =
             row.iter().find(|(path, _)| Some(path) == paths.first()).map(|(_, value)| value.text.clone());
         let name = names.as_ref().and_then(|names| names.get(index).cloned()).or(first).unwrap_or_default();
-        let of_key =
-            |key: &StudyKey| number(&row, &key.path).filter(|_| key.unit.is_some()).map(|(number, _)| number);
-        let numbers = keys.iter().map(of_key).collect();
+        let of_key = |key: &StudyKey| number(&row, &key.path).filter(|_| key.unit.is_some());
+        let numbers = keys.iter().map(|key| of_key(key).map(|(number, _)| number)).collect();
         let set = row.into_iter().map(|(path, value)| (path, value.replacement)).collect();
         StudyValue { name, set, numbers, location }
     });
     let values = values.collect();
     Ok(Read { keys, is_named: names.is_some(), spaced_by_ratios: false, values })
+}
+
+fn number(row: &[(String, Written)], path: &str) -> Option<(f64, Dimension)> {
+    row.iter().find(|(own, _)| own == path).and_then(|(_, value)| value.number)
+}
+
+/// The keys of the first value, which all others must have too.
+fn same_keys(table: &TableReader<'_>, rows: &[Row]) -> Result<Vec<String>, Reported> {
+    let keys = |(row, _): &Row| row.iter().map(|(path, _)| path.clone()).collect::<Vec<String>>();
+    let paths = rows.first().map(keys).unwrap_or_default();
+    for row in rows {
+        let own = keys(row);
+        if own.len() != paths.len() || !paths.iter().all(|path| own.contains(path)) || paths.is_empty() {
+            let found = format!("the keys {}", own.join(", "));
+            let expected = format!("those of the first value: {}", paths.join(", "));
+            return Err(table.refuse_at(&row.1, Problem::rule(found, expected)));
+        }
+    }
+    Ok(paths)
 }
 
 type Row = (Vec<(String, Written)>, Location);

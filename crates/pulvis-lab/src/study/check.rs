@@ -37,8 +37,7 @@ pub fn check(study: &Study, plan: &Plan, threads: usize, stop: &AtomicBool) -> R
     refuse_idle_seeds(study, plan)?;
     let firsts: Vec<&PlannedRun> =
         plan.runs.chunk_by(|one, other| one.point == other.point).filter_map(<[_]>::first).collect();
-    let mut found: Vec<Option<Result<(Forecast, Vec<String>), PrepareError>>> =
-        firsts.iter().map(|_| None).collect();
+    let mut found: Vec<Option<Look>> = firsts.iter().map(|_| None).collect();
     let work = |number: usize| firsts.get(number).map(|run| look(run));
     at_once(firsts.len(), threads, stop, &work, &mut |number, result| {
         if let Some(slot) = found.get_mut(number) {
@@ -63,7 +62,10 @@ pub fn check(study: &Study, plan: &Plan, threads: usize, stop: &AtomicBool) -> R
     Ok(checked)
 }
 
-fn look(run: &PlannedRun) -> Result<(Forecast, Vec<String>), PrepareError> {
+/// The size of a run, and what is to be warned of.
+type Look = Result<(Forecast, Vec<String>), PrepareError>;
+
+fn look(run: &PlannedRun) -> Look {
     let prepared = prepare(&run.scenario)?;
     let stages = stages(&run.scenario, &prepared);
     let forecast = Forecast {

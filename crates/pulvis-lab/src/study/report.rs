@@ -31,7 +31,7 @@ pub(super) fn report(
                 expected.certainty.as_ref().map_or(String::new(), |grade| format!(", certainty {grade}"));
             format!("{}{certainty}", expected.source)
         });
-        let verdict = verdict.unwrap_or(Verdict::Passed);
+        let verdict = verdict.unwrap_or(Verdict::Unjudged);
         summary
             .push(SummaryRow { cells: vec![measure.key.clone(), measure.what.clone(), expected], verdict });
         sections.push(of_measure(study, results, (number, measure), verdict)?);
