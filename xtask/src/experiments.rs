@@ -32,12 +32,27 @@ pub fn run(only: Option<&str>) -> Outcome {
             run_stages(&pulvis, &folder, &short)?;
             ran += 1;
         }
+        let study = folder.join("study.toml");
+        let is_quick = QUICK_STUDIES.iter().any(|quick| folder.ends_with(quick));
+        if study.exists() && (is_quick || only.is_some()) {
+            run_study(&pulvis, &study)?;
+            ran += 1;
+        }
     }
     if only.is_none_or(|name| name == FIGURES) {
         reproduce(&pulvis)?;
         ran += 1;
     }
     if ran == 0 { Err("no experiment was found".to_owned()) } else { Ok(()) }
+}
+
+/// Studies that take seconds; the others are run if they are named.
+const QUICK_STUDIES: [&str; 1] = ["study-restitution"];
+
+/// A study judges itself.
+fn run_study(pulvis: &Path, study: &Path) -> Outcome {
+    let output = scratch("study")?;
+    run_command(Command::new(pulvis).arg("study").arg(study).arg("--output").arg(output))
 }
 
 /// The folder of the papers' figures.

@@ -28,6 +28,16 @@ pub fn run_all() -> Outcome {
         )?;
     }
 
+    for (name, measure) in [("study-restitution", "e2"), ("study-friction", "phi")] {
+        let folder = scratch(name)?;
+        let study = root().join(format!("experiments/{name}/study.toml"));
+        run(pulvis().arg("study").arg(study).arg("--dpi").arg("100").arg("--output").arg(&folder))?;
+        copy(
+            &folder.join(measure).with_extension("png"),
+            &root().join(format!("docs/book/src/figures/{name}.png")),
+        )?;
+    }
+
     let folder = scratch("tablet_short")?;
     let scenario = root().join("experiments/tablet/short.toml");
     run(pulvis().arg("run").arg(scenario).arg("--output").arg(&folder).arg("--force"))?;

@@ -13,6 +13,7 @@ pub fn run() -> Outcome {
     let tests = root().join("crates/pulvis-input/tests");
     let (good, mut bad) = (files(&tests.join("good"))?, files(&tests.join("bad"))?);
     bad.extend(files(&tests.join("collision/bad"))?);
+    bad.extend(files(&tests.join("bad_studies"))?);
     let mut wrong = Vec::new();
     for path in &good {
         let (code, text) = show(&pulvis, path)?;
@@ -39,8 +40,10 @@ pub fn run() -> Outcome {
 /// Exit code, and what is printed.
 fn show(pulvis: &Path, path: &Path) -> Outcome<(Option<i32>, String)> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let in_collisions = path.components().any(|part| part.as_os_str() == "collision");
+    let is_in = |folder: &str| path.components().any(|part| part.as_os_str() == folder);
+    let in_collisions = is_in("collision");
     let command = match &*name {
+        _ if is_in("bad_studies") => "study",
         name if in_collisions || name.starts_with("collision_") => "collide",
         name if name.starts_with("probe_") => "probe",
         _ => "check",

@@ -9,7 +9,8 @@
 //! - [`error`], [`problem`]: where it is wrong, what was found, what was expected, what to do;
 //! - [`mod@contact`], [`comparison`]: all laws of a contact, and contacts to be compared;
 //! - [`scenario`], [`collision`], [`probe`]: the scenario of a run, of a pair collision, and of a contact on a
-//!   prescribed path, each checked as a whole; [`figure`]: a figure that is reproduced from such scenarios.
+//!   prescribed path, each checked as a whole; [`figure`]: a figure that is reproduced from such scenarios;
+//!   [`study`]: a scenario of a run over seeds and values.
 //!
 //! # Example
 //! ```
@@ -51,6 +52,8 @@ mod setting;
 pub mod shape;
 mod similar;
 mod source;
+mod spacing;
+pub mod study;
 pub mod surroundings;
 mod syntax;
 pub mod unit;

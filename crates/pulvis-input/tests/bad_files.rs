@@ -4,14 +4,15 @@
 //! several mistakes are several such lines, in the order of the file, missing keys after the unknown ones of
 //! their table. Changing a message shows up in review. Files `collision_*` are scenarios of pair
 //! collisions, files `probe_*` of probes, all others of runs. Each folder of `tests/bad_figures` is a figure whose
-//! `figure.toml` ends in the same way.
+//! `figure.toml` ends in the same way, and each file of `tests/bad_studies` is a study that does.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pulvis_input::collision::CollisionScenario;
 use pulvis_input::figure::FigureScenario;
 use pulvis_input::probe::ProbeScenario;
-use pulvis_input::{InputErrors, Problem, Scenario};
+use pulvis_input::study::Study;
+use pulvis_input::{Document, InputErrors, Problem, Scenario};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -83,6 +84,33 @@ fn every_bad_figure_is_refused_with_exactly_its_messages() {
         if expected != got {
             let (expected, got) = (expected.join("\n  "), got.join("\n  "));
             wrong.push_str(&format!("\n{}\n expected\n  {expected}\n got\n  {got}\n", folder.display()));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn every_bad_study_is_refused_with_exactly_its_messages() {
+    let mut wrong = String::new();
+    let all = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_studies");
+    let mut files: Vec<PathBuf> = fs::read_dir(&all).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|file| file.is_file());
+    files.sort();
+    assert!(files.len() >= 10, "the folder of bad studies was not found");
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap();
+        let expected: Vec<&str> =
+            text.lines().filter_map(|line| line.strip_prefix("#^")).map(str::trim).collect();
+        let got: Vec<String> = match Study::load(&file, &|path| Document::load(path)) {
+            Ok(_) => vec!["accepted".to_owned()],
+            Err(errors) => {
+                let folder = format!("{}/", all.display());
+                errors.errors().iter().map(|error| error.headline().replace(&folder, "")).collect()
+            }
+        };
+        if expected != got {
+            let (expected, got) = (expected.join("\n  "), got.join("\n  "));
+            wrong.push_str(&format!("\n{}\n expected\n  {expected}\n got\n  {got}\n", file.display()));
         }
     }
     assert!(wrong.is_empty(), "{wrong}");

@@ -1,8 +1,9 @@
-//! `docs/scenario.md` describes every key of a scenario, and its example is one.
+//! `docs/scenario.md` describes every key of a scenario, and its example is one; so is that of `docs/study.md` a study.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use pulvis_input::Scenario;
+use pulvis_input::study::Study;
+use pulvis_input::{Document, Scenario};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -26,6 +27,19 @@ fn the_example_of_the_manual_is_a_scenario() {
     if let Err(errors) = Scenario::from_str("docs/scenario.md", example) {
         panic!("{errors}");
     }
+}
+
+#[test]
+fn the_example_of_the_manual_of_studies_is_a_study() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let manual = std::fs::read_to_string(root.join("docs/study.md")).unwrap();
+    let (_, rest) = manual.split_once("```toml\n").unwrap();
+    let (example, _) = rest.split_once("```").unwrap();
+    let document = Document::from_str("docs/study.md", example).unwrap();
+    let file = root.join("experiments/study-friction/study.toml");
+    let study = Study::from_document(&document, &file, &|path| Document::load(path))
+        .unwrap_or_else(|errors| panic!("{errors}"));
+    assert_eq!((study.points.len(), study.seeds.len(), study.measures.len()), (5, 4, 2));
 }
 
 /// Resolved scenarios write every key out. Names of the user and parameters of laws are left aside:

@@ -13,7 +13,6 @@ pub fn facts(seconds: f64) -> Vec<(String, String)> {
         ("system".to_owned(), format!("{} {}", std::env::consts::OS, std::env::consts::ARCH)),
         ("date".to_owned(), date()),
         ("time taken".to_owned(), duration(seconds)),
-        ("random numbers".to_owned(), "none: collisions and paths have no seed".to_owned()),
     ];
     if let Some(commit) = commit() {
         facts.insert(1, ("commit".to_owned(), commit));

@@ -14,6 +14,8 @@ mod render;
 mod reproduce;
 mod run;
 mod set;
+mod study;
+mod study_progress;
 mod verify;
 mod words;
 
@@ -42,6 +44,8 @@ pub enum Command {
     Probe(probe::Arguments),
     /// Lists the contact laws, or describes one in full
     Laws(laws::Arguments),
+    /// Runs a scenario over seeds and values, in parallel, and holds the means against what is expected
+    Study(study::Arguments),
     /// Computes figures of papers anew, holds them against theory, and writes a report
     Reproduce(reproduce::Arguments),
     /// Checks contact laws against closed forms, published numbers and values of another program
@@ -60,6 +64,7 @@ impl Command {
             Self::Collide(arguments) => collide::execute(arguments),
             Self::Probe(arguments) => probe::execute(arguments),
             Self::Laws(arguments) => laws::execute(arguments),
+            Self::Study(arguments) => study::execute(arguments),
             Self::Reproduce(arguments) => reproduce::execute(arguments),
             Self::Verify(arguments) => verify::execute(arguments),
         }

@@ -150,7 +150,9 @@ fn compute(arguments: &Arguments, figures: Vec<FigureScenario>) -> Result<ExitCo
     if let Some(bar) = &bar {
         bar.finish_and_clear();
     }
-    let written = report(&attempts, facts(start.elapsed().as_secs_f64())).map_err(Failure::while_running)?;
+    let mut facts = facts(start.elapsed().as_secs_f64());
+    facts.push(("random numbers".to_owned(), "none: collisions and paths have no seed".to_owned()));
+    let written = report(&attempts, facts).map_err(Failure::while_running)?;
     written.write(&arguments.output).map_err(Failure::while_running)?;
     let good = attempts.iter().filter(|attempt| attempt.passes()).count();
     print(&format!(

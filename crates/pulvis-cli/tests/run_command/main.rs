@@ -1,4 +1,4 @@
-//! `pulvis run`, `pulvis check`, `pulvis render` and `pulvis reproduce` from outside: files, messages, exit codes, Ctrl-C.
+//! `pulvis run`, `pulvis check`, `pulvis render`, `pulvis study` and `pulvis reproduce` from outside: files, messages, exit codes, Ctrl-C.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
 
@@ -12,3 +12,4 @@ mod reproduce;
 mod resume;
 mod run;
 mod start;
+mod study;

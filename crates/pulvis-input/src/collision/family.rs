@@ -1,12 +1,13 @@
 //! A second variable of a sweep: one curve for each of its values.
 
-use super::sweep::{STEPS, read_values, swept_parameter};
+use super::sweep::{STEPS, swept_parameter};
 use crate::comparison::LabelledContact;
 use crate::context::Reported;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::shape::Text;
+use crate::spacing::read_values;
 use pulvis_contact::catalogue::Value;
 use pulvis_math::Dimension;
 

@@ -5,14 +5,14 @@ use super::speed::{Measure, Speed};
 use crate::comparison::LabelledContact;
 use crate::contact::{NamedContact, NamedLaw, entries};
 use crate::context::Reported;
-use crate::list::List;
 use crate::problem::{LONGEST_VALUE, Problem, shortened};
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use crate::shape::{Integer, Name, Text};
+use crate::shape::Text;
 use crate::similar::similar;
+use crate::spacing::read_values;
 use pulvis_contact::catalogue::{Kind, LawEntry, Parameter, Value};
-use pulvis_math::{Dimension, elementary};
+use pulvis_math::Dimension;
 
 /// More collisions than any picture needs; a slip of the pen should not fill the memory (a collision takes 1 to 2 kB).
 const MOST_COLLISIONS: usize = 100_000;
@@ -133,63 +133,6 @@ pub(super) fn read_sweep(
     }
     table.finish();
     Ok(Sweep { variable: sweepable.variable, logarithmic, points })
-}
-
-/// Reads a list of `values`, or `from`, `to`, `points` and `spacing`; and whether they are spaced by equal ratios.
-pub(super) fn read_values(
-    table: &mut TableReader<'_>,
-    rule: QuantityRule,
-) -> Result<(Vec<f64>, bool), Reported> {
-    let listed = table.optional("values", List::of(rule).at_least(1))?;
-    let mut logarithmic = false;
-    let values = match listed {
-        Some(values) => {
-            if let Some(key) =
-                ["from", "to", "points", "spacing"].into_iter().find(|key| table.value(key).is_some())
-            {
-                return Err(table.refuse(
-                    key,
-                    Problem::rule("given beside `values`", "either `values` or `from`, `to`, `points`"),
-                ));
-            }
-            values
-        }
-        None if !["from", "to", "points", "spacing"].into_iter().any(|key| table.keys().contains(&key)) => {
-            let expected = "a list of values, or `from`, `to` and `points`".to_owned();
-            return Err(table.refuse("values", Problem::MissingKey { key: "values".to_owned(), expected }));
-        }
-        None => read_range(table, rule, &mut logarithmic)?,
-    };
-    Ok((values, logarithmic))
-}
-
-/// Reads `from`, `to`, `points` and `spacing`.
-fn read_range(
-    table: &mut TableReader<'_>,
-    rule: QuantityRule,
-    logarithmic: &mut bool,
-) -> Result<Vec<f64>, Reported> {
-    let from = table.required("from", rule);
-    let to = table.required("to", rule);
-    let points = table.required("points", Integer::between(2, MOST_COLLISIONS as i64));
-    let spacing = table.or("spacing", Name(&["linear", "log"]), "linear");
-    let (from, to, points) = (from?, to?, points?);
-    *logarithmic = spacing? == "log";
-    for (key, end) in [("from", from), ("to", to)] {
-        if *logarithmic && end <= 0.0 {
-            let found = format!("{end} has no logarithm");
-            return Err(
-                table.refuse(key, Problem::rule(found, "a value greater than 0, or spacing = \"linear\""))
-            );
-        }
-    }
-    let between = |share: f64| {
-        if *logarithmic { from * elementary::powf(to / from, share) } else { from + (to - from) * share }
-    };
-    #[allow(clippy::cast_precision_loss)] // few
-    let inner = (1..points - 1).map(|number| between(number as f64 / (points - 1) as f64));
-    // The ends exactly as written.
-    Ok(std::iter::once(from).chain(inner).chain(std::iter::once(to)).collect())
 }
 
 /// The descriptions of a contact's laws.

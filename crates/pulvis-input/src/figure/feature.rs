@@ -173,7 +173,7 @@ fn read_feature(mut table: TableReader<'_>, data: &[FigureData]) -> Result<Featu
     })
 }
 
-/// Reads a measure; what it does not say is as in `base`, if there is one.
+/// Reads a measure of one of the `data`; what it does not say is as in `base`, if there is one.
 fn read_measure(
     table: &mut TableReader<'_>,
     data: &[FigureData],
@@ -183,6 +183,32 @@ fn read_measure(
         Some(base) if table.value("data").is_none() => Ok(base.data),
         _ => chosen(table, data),
     };
+    let of = |index: usize| match data.get(index) {
+        Some(FigureData { experiment: Experiment::Runs(runs), name, .. }) => {
+            let stages = runs.planned.first().map(|run| run.scenario.stages.as_slice()).unwrap_or_default();
+            Some(Measured { data: index, name, stages })
+        }
+        _ => None,
+    };
+    read_rows(table, index.map(of), base)
+}
+
+/// A run that something is measured of.
+#[derive(Clone, Copy)]
+pub(crate) struct Measured<'r> {
+    /// Index of the data.
+    pub(crate) data: usize,
+    /// What it is called.
+    pub(crate) name: &'r str,
+    pub(crate) stages: &'r [Stage],
+}
+
+/// Reads which number is made of which rows of a run; what is not said is as in `base`, if there is one.
+pub(crate) fn read_rows(
+    table: &mut TableReader<'_>,
+    measured: Result<Option<Measured<'_>>, Reported>,
+    base: Option<&Measure>,
+) -> Result<Measure, Reported> {
     let (value, y) = match base {
         Some(base) => {
             (table.or("value", Choice(&Value::NAMED), base.value), table.or("y", Text, base.y.clone()))
@@ -195,11 +221,9 @@ fn read_measure(
     let within = table.optional_table("within").and_then(|within| within.map(read_within).transpose());
     let stage = table.optional("stage", Text);
     let formula = read_formula(table);
-    let index = index?;
-    let Some(FigureData { experiment: Experiment::Runs(runs), name, .. }) = data.get(index) else {
+    let Some(Measured { data: index, name, stages }) = measured? else {
         return Err(table.refuse("data", Problem::rule("no run", "data whose file has [[stages]]")));
     };
-    let stages = runs.planned.first().map(|run| run.scenario.stages.as_slice()).unwrap_or_default();
     let same_data = base.filter(|base| base.data == index);
     let stage = chosen_stage(table, stage?, stages, same_data.and_then(|base| base.stage))?;
     let value = value?;

@@ -7,7 +7,7 @@
 mod axis;
 mod check;
 mod data;
-mod feature;
+pub(crate) mod feature;
 mod formula;
 mod notes;
 mod of_run;
@@ -16,7 +16,7 @@ mod quantity;
 mod reference;
 mod runs;
 mod series;
-mod settings;
+pub(crate) mod settings;
 mod snapshots;
 
 pub use axis::FigureAxis;
@@ -197,6 +197,6 @@ fn can_be_measured(
 }
 
 /// A text that was broken into lines for the eye.
-fn one_paragraph(text: &str) -> String {
+pub(crate) fn one_paragraph(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -6,6 +6,7 @@ use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::Text;
 use crate::value::Value;
+use crate::value_reader::ValueReader;
 
 /// Keys of a scenario and the values that take the place of its own.
 pub type Settings = Vec<(String, Replacement)>;
@@ -43,25 +44,30 @@ pub(super) fn read_variants(root: &mut TableReader<'_>) -> Result<Vec<Variant>, 
     all.into_iter().collect()
 }
 
+/// A text, a number or a truth value that takes the place of one in a scenario.
+pub(crate) fn read_replacement(value: &ValueReader<'_>) -> Result<Replacement, Reported> {
+    match value.raw() {
+        Value::Text(text) => Ok(Replacement::Text(text.clone())),
+        Value::Boolean(boolean) => Ok(Replacement::Boolean(*boolean)),
+        Value::Integer(digits) | Value::Number(digits) => Ok(Replacement::parse(digits)),
+        _ => Err(value.wrong_type(
+            "a text, a number or true or false; list items have paths of their own, \
+             \"stages[0].walls.x-high.displacement[0]\"",
+        )),
+    }
+}
+
 /// Reads `set`: a table of dotted paths and texts, numbers or truth values.
-pub(super) fn read_settings(table: &mut TableReader<'_>) -> Result<Settings, Reported> {
+pub(crate) fn read_settings(table: &mut TableReader<'_>) -> Result<Settings, Reported> {
     let Some(mut set) = table.optional_table("set")? else { return Ok(Vec::new()) };
     let mut settings = Vec::new();
     let mut failure = None;
     for key in set.keys() {
         let Some(value) = set.value(key) else { continue };
-        let replacement = match value.raw() {
-            Value::Text(text) => Replacement::Text(text.clone()),
-            Value::Boolean(boolean) => Replacement::Boolean(*boolean),
-            Value::Integer(digits) | Value::Number(digits) => Replacement::parse(digits),
-            _ => {
-                let expected = "a text, a number or true or false; list items have paths of their own, \
-                                \"stages[0].walls.x-high.displacement[0]\"";
-                failure = Some(value.wrong_type(expected));
-                continue;
-            }
-        };
-        settings.push((key.to_owned(), replacement));
+        match read_replacement(&value) {
+            Ok(replacement) => settings.push((key.to_owned(), replacement)),
+            Err(reported) => failure = Some(reported),
+        }
     }
     set.finish();
     failure.map_or(Ok(settings), Err)

@@ -15,9 +15,14 @@ const MARGIN: f64 = 0.5;
 /// The vertical scale that a chart asks for.
 pub(super) fn vertical_scale(chart: &Chart) -> Scale {
     let values = || {
-        let points = chart.series.iter().flat_map(|series| &series.points);
+        let ends = chart
+            .series
+            .iter()
+            .flat_map(|series| series.error_bars().flat_map(|(x, ends)| ends.map(|end| (x, end))));
+        // A lower end that a logarithmic axis has no place for stretches nothing.
+        let points = chart.series.iter().flat_map(|series| series.points.iter().copied()).chain(ends);
         // A value whose abscissa cannot be shown must not stretch the axis.
-        points.filter(|(x, _)| x.is_finite() && (!chart.x.logarithmic || *x > 0.0)).map(|&(_, y)| y)
+        points.filter(|(x, _)| x.is_finite() && (!chart.x.logarithmic || *x > 0.0)).map(|(_, y)| y)
     };
     let zero = chart.zero_line.then_some(0.0);
     if chart.robust_y

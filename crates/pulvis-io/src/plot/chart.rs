@@ -36,6 +36,8 @@ pub struct Series {
     pub(super) thick: bool,
     /// Where arrow heads come from and where their tips are.
     pub(super) arrows: Vec<[(f64, f64); 2]>,
+    /// Half the length of the error bar of each point.
+    pub(super) errors: Vec<f64>,
 }
 
 impl Series {
@@ -61,7 +63,7 @@ impl Series {
         points: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
         let (label, points) = (label.into(), points.into_iter().collect());
-        Self { label, style, points, colour: None, thick: false, arrows: Vec::new() }
+        Self { label, style, points, colour: None, thick: false, arrows: Vec::new(), errors: Vec::new() }
     }
 
     /// Takes colour `number` of the palette instead of the next one, so that theory and simulation of one case match.
@@ -84,6 +86,20 @@ impl Series {
     pub fn arrows(mut self, arrows: impl IntoIterator<Item = [(f64, f64); 2]>) -> Self {
         self.arrows.extend(arrows);
         self
+    }
+
+    /// Adds error bars: from each point, in their order, a line by so much up and down. What is not finite or zero has none.
+    #[must_use]
+    pub fn errors(mut self, errors: impl IntoIterator<Item = f64>) -> Self {
+        self.errors.extend(errors);
+        self
+    }
+
+    /// Lower and upper end of each error bar, with its abscissa.
+    pub(super) fn error_bars(&self) -> impl Iterator<Item = (f64, [f64; 2])> {
+        let bars = self.points.iter().zip(&self.errors);
+        let bars = bars.filter(|((_, y), half)| half.is_finite() && **half > 0.0 && y.is_finite());
+        bars.map(|((x, y), half)| (*x, [y - half, y + half]))
     }
 }
 

@@ -24,6 +24,9 @@ pub(super) const FRAME: f64 = 0.9;
 const CROSS: f64 = 2.4;
 const THIN: f64 = 1.0;
 
+/// Half the width of the ends of error bars \[pt\].
+const CAP: f64 = 3.0;
+
 /// Radius of a point of a curve that has gaps on both sides \[pt\].
 const LONE: f64 = 2.0;
 
@@ -231,6 +234,7 @@ impl<'a> Panel<'a> {
     ) -> Result<(), IoError> {
         let colour = Colour::palette(shape);
         let style = self.chart.series[number].style;
+        self.error_bars(number).try_for_each(|bar| canvas.line(&bar, colour, THIN))?;
         if style.is_unconnected() {
             return self.symbols(number).try_for_each(|at| draw_symbol(canvas, at, colour, (style, shape)));
         }
@@ -238,6 +242,24 @@ impl<'a> Panel<'a> {
         strokes.iter().try_for_each(|(line, pattern)| draw_line(canvas, line, (colour, width), *pattern))?;
         self.arrow_heads(number).try_for_each(|corners| canvas.fill(&corners, colour, 1.0))?;
         self.lone_points(number).try_for_each(|at| canvas.disc(at, LONE, colour))
+    }
+
+    /// The lines of the error bars of a series inside the frame: bars, and their ends. A bar whose lower end has no place on a
+    /// logarithmic axis goes down to the frame.
+    fn error_bars(&self, number: usize) -> impl Iterator<Item = [Point; 2]> {
+        let within = |y: f64| y.clamp(self.frame.top, self.frame.bottom);
+        self.chart.series[number].error_bars().flat_map(move |(x, [low, high])| {
+            let high =
+                self.place((x, high)).filter(|(x, _)| (self.frame.left..=self.frame.right).contains(x));
+            let Some((x, top)) = high else { return Vec::new() };
+            let low = self.y.place(low).map(|y| self.frame.bottom - y.clamp(-FAR, FAR) * self.frame.height());
+            let bottom = low.unwrap_or(self.frame.bottom);
+            let cap = |y: f64| (within(y) == y).then_some([(x - CAP, y), (x + CAP, y)]);
+            [Some([(x, within(bottom)), (x, within(top))]), low.and_then(cap), cap(top)]
+                .into_iter()
+                .flatten()
+                .collect()
+        })
     }
 
     /// Tip and base of each arrow head of a series whose tip is inside the frame.

@@ -313,6 +313,23 @@ mod tests {
     }
 
     #[test]
+    fn error_bars_reach_as_far_as_they_are_told_and_no_range_cuts_them_off() {
+        let bars = |errors: [f64; 2]| {
+            let series = Series::points("", [(0.0, 1.0), (1.0, 2.0)]).errors(errors);
+            Figure::new().panel(Chart::new("").y_range(0.0, 4.0).series(series)).to_svg().unwrap()
+        };
+        let lines = |svg: &str| {
+            svg.lines().filter(|line| line.contains("#0072B2") && line.contains("<polyline")).count()
+        };
+        // A bar has a line and two ends; one that is zero or no number has none.
+        assert_eq!([[0.5, 0.25], [0.5, f64::NAN], [0.0, -1.0]].map(|errors| lines(&bars(errors))), [6, 3, 0]);
+        let series = Series::points("", [(0.0, 1.0), (1.0, 2.0)]).errors([100.0, 0.0]);
+        let free = Figure::new().panel(Chart::new("").series(series)).to_svg().unwrap();
+        let texts: Vec<&str> = free.lines().map(str::trim).collect();
+        assert!(texts.contains(&"\u{2212}100") && texts.contains(&"100"), "{free}");
+    }
+
+    #[test]
     fn other_endings_and_sizes_are_refused() {
         let error = Chart::new("").write(Path::new("chart.pdf")).unwrap_err();
         assert_eq!(error.to_string(), "no plot format is called `pdf`; choose one of: png, svg");

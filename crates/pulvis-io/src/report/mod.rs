@@ -19,6 +19,8 @@ pub enum Verdict {
     Missed,
     /// It could not be found out.
     Failed,
+    /// Nothing was asked for.
+    Unjudged,
 }
 
 impl Verdict {
@@ -28,6 +30,7 @@ impl Verdict {
             Self::Passed => "passed",
             Self::Missed => "missed",
             Self::Failed => "failed",
+            Self::Unjudged => "reported",
         }
     }
 }

@@ -284,7 +284,7 @@ fn forecast(
     }
 }
 
-pub(super) fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForecast> {
+pub(crate) fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForecast> {
     let motions = cell::motions(scenario, prepared.simulation.cell_motion());
     let plans = scenario.stages.iter().zip(&prepared.stages).zip(&motions);
     plans

@@ -152,6 +152,14 @@ impl OutputFolder {
     }
 }
 
+/// Removes the files of the run that is in a folder.
+///
+/// # Errors
+/// It holds something else than a run that has ended, or a file cannot be removed.
+pub(crate) fn clear(folder: &Path) -> Result<(), PrepareError> {
+    OutputFolder::open(folder, true).map(drop)
+}
+
 /// Whether a run could write into `folder`, without touching it; answers with the names of the files that it
 /// would remove first.
 ///

@@ -8,11 +8,11 @@ use super::error::PrepareError;
 
 /// The file that is locked. It stays behind, empty of meaning: to remove it would let two runs lock two
 /// files of the same name.
-pub(super) const LOCK: &str = ".pulvis-lock";
+pub(crate) const LOCK: &str = ".pulvis-lock";
 
 /// What is asked of a lock where the file system knows none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Lock {
+pub(crate) enum Lock {
     /// A fresh folder may be used all the same.
     IfPossible,
     /// The process that has locked it before must have ended, as far as this machine knows.
@@ -28,7 +28,7 @@ fn is_alive(process: &str) -> bool {
 }
 
 /// Locks a folder for this process. `None` on a file system without locks.
-pub(super) fn lock(folder: &Path, wanted: Lock) -> Result<Option<File>, PrepareError> {
+pub(crate) fn lock(folder: &Path, wanted: Lock) -> Result<Option<File>, PrepareError> {
     let failed = |source| PrepareError::Folder { folder: PathBuf::from(folder), source };
     let path = folder.join(LOCK);
     let mut file = OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(failed)?;

@@ -258,7 +258,8 @@ pub(super) fn sensible_threads(particles: usize) -> usize {
     threads_for(particles, processors)
 }
 
-fn threads_for(particles: usize, processors: usize) -> usize {
+/// As many threads as there is work for, of `processors`.
+pub(crate) fn threads_for(particles: usize, processors: usize) -> usize {
     processors.min(particles / PARTICLES_PER_THREAD).max(1)
 }
 

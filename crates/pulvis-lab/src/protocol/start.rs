@@ -1,9 +1,9 @@
 //! Simulations that start from a checkpoint: of the same run, or of another one.
 
 use pulvis_core::walls::Wall;
-use pulvis_core::{Interactions, Particle, Simulation, State};
+use pulvis_core::{Domain, Interactions, Particle, Simulation, State};
 use pulvis_input::scenario::{Scenario, Stage, StartFrom, WallControl};
-use pulvis_input::{Document, Problem, Replacement};
+use pulvis_input::{Document, InputErrors, Problem, Replacement};
 use pulvis_io::vtk::Frame;
 use std::path::Path;
 
@@ -14,6 +14,7 @@ use super::damping::refuse_overdamped;
 use super::error::PrepareError;
 use super::feasible::{check_feasible, start_stage};
 use super::frame::frame_of;
+use super::particles::generate;
 use super::run::StageResult;
 use super::setup::{Origin, Prepared, StagePlan, drawn_walls, interactions, stages};
 use super::stage::Ending;
@@ -142,10 +143,23 @@ pub fn load_scenario(path: &Path, set: &[(String, Replacement)]) -> Result<Scena
 /// # Errors
 /// As of [`load_scenario`].
 pub fn read_scenario(
-    mut document: Document,
+    document: Document,
     path: Option<&Path>,
     set: &[(String, Replacement)],
 ) -> Result<Scenario, PrepareError> {
+    Ok(Scenario::from_document(&with_start(document, path)?.with_overrides(set)?, path)?)
+}
+
+/// Reads a scenario file as [`load_scenario`] does, up to the replacing of values.
+///
+/// # Errors
+/// The file is no TOML, or its checkpoint cannot be used.
+pub fn load_document(path: &Path) -> Result<Document, InputErrors> {
+    with_start(Document::load(path)?, Some(path))
+}
+
+/// Gives a document that starts from a run what it does not say.
+fn with_start(mut document: Document, path: Option<&Path>) -> Result<Document, InputErrors> {
     let folder = path.and_then(Path::parent).unwrap_or(Path::new(""));
     if let Some((start, place)) = document.start_from(folder)? {
         let refused = |error| document.error_at(&place, Problem::Refused(Box::new(error)));
@@ -155,11 +169,24 @@ pub fn read_scenario(
         document =
             document.with_missing_from(&base, &["title", "start_from", "allow", "stages", "output"], &place);
     }
-    Ok(Scenario::from_document(&document.with_overrides(set)?, path)?)
+    Ok(document)
+}
+
+/// Whether two scenarios that differ by their seeds start with the same particles: then their runs are the same.
+///
+/// # Errors
+/// The particles cannot be made.
+pub(crate) fn start_alike(one: &Scenario, other: &Scenario) -> Result<bool, PrepareError> {
+    if one.start_from.is_some() {
+        return Ok(true);
+    }
+    let [first, second] =
+        [one, other].map(|scenario| generate(scenario, &scenario.domain.unwrap_or(Domain::unbounded())));
+    Ok(first? == second?)
 }
 
 /// The scenario of a checkpoint, and the stage in it.
-fn parent(checkpoint: &Checkpoint) -> Result<(Scenario, usize), PrepareError> {
+fn parent(checkpoint: &Checkpoint) -> Result<(Scenario, usize), InputErrors> {
     let scenario = Scenario::from_str("the scenario of the checkpoint", &checkpoint.scenario)?;
     let last = scenario.stages.len() - 1;
     Ok((scenario, checkpoint.run.stage().min(last)))

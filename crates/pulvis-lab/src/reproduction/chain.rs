@@ -4,11 +4,11 @@ use super::ReproductionError;
 use super::series::FinishedRun;
 use super::snapshots::plain;
 use super::workplace::{RunDone, Workplace};
-use crate::protocol::{PictureOptions, RunOptions, RunSummary, column_names, has_ended, run};
+use crate::protocol::{PictureOptions, RunOptions, RunState, RunSummary, column_names, run, run_state};
 use pulvis_input::figure::{Experiment, Family, FigureScenario, PlannedRun, Runs};
 use pulvis_input::scenario::{Scenario, StartFrom};
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::Instant;
@@ -157,7 +157,8 @@ fn carry_out(
     let own = folder(figure, workplace, task);
     let data = figure.data.get(task.data).map_or("", |data| data.name.as_str());
     let start = Instant::now();
-    let is_reused = may_reuse && is_there(&scenario, workplace, &own);
+    let is_reused = may_reuse
+        && run_state(&scenario, workplace.version, &own).is_ok_and(|state| state == RunState::Complete);
     if !is_reused {
         let options = RunOptions {
             folder: Some(own.clone()),
@@ -187,12 +188,6 @@ fn carry_out(
         is_reused,
     });
     Ok(is_reused)
-}
-
-/// Whether a run of this very scenario, by this version, has ended in the folder.
-fn is_there(scenario: &Scenario, workplace: &Workplace<'_>, folder: &Path) -> bool {
-    let resolved = scenario.to_resolved_toml(workplace.version);
-    std::fs::read_to_string(folder.join("run.toml")).is_ok_and(|text| text == resolved) && has_ended(folder)
 }
 
 /// Where a run writes.

@@ -68,7 +68,7 @@ pub(super) fn look(feature: &Feature, results: &Results<'_>) -> Result<SeenFeatu
 }
 
 /// Takes a number out of a run; not a number where the rows do not tell it.
-fn measure(measure: &Measure, run: &FinishedRun<'_>) -> Result<f64, ReproductionError> {
+pub(crate) fn measure(measure: &Measure, run: &FinishedRun<'_>) -> Result<f64, ReproductionError> {
     let (x, y) = (run.column(&measure.x)?, run.column(&measure.y)?);
     let rows = run.measured(measure)?;
     if measure.value.is_of_cycles() {

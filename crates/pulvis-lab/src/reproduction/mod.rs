@@ -19,9 +19,11 @@ mod snapshots;
 mod workplace;
 
 pub use features::SeenFeature;
+pub(crate) use features::measure;
 pub use judge::Judged;
 pub use report::{files, report};
 pub use run::{Attempt, run_all};
+pub(crate) use series::FinishedRun;
 pub use snapshots::Snapshot;
 pub use workplace::{RunDone, Seats, Workplace};
 

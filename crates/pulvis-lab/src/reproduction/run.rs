@@ -2,10 +2,9 @@
 
 use super::report::{feature_file, feature_table};
 use super::{Reproduction, ReproductionError, Workplace, reproduce};
+use crate::at_once::at_once;
 use pulvis_input::figure::{Experiment, FigureScenario};
 use std::num::NonZero;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
 use std::time::Instant;
 
 /// A figure that was computed, or why it could not be.
@@ -39,26 +38,15 @@ pub fn run_all(
     // Runs take longest and keep all processors busy: they come first.
     let mut order: Vec<usize> = (0..figures.len()).collect();
     order.sort_by_key(|number| figures.get(*number).is_some_and(|figure| !has_runs(figure)));
-    let next = AtomicUsize::new(0);
     let mut attempts: Vec<(usize, Attempt)> = Vec::with_capacity(figures.len());
-    std::thread::scope(|scope| {
-        let (sender, receiver) = mpsc::channel();
-        for _ in 0..threads {
-            let (sender, next, figures, order) = (sender.clone(), &next, &figures, &order);
-            scope.spawn(move || {
-                while !workplace.stop.load(Ordering::Relaxed) {
-                    let Some(number) = order.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-                    let Some(figure) = figures.get(*number) else { break };
-                    // Nobody listens any more only if the receiving side is gone, and then nothing matters.
-                    let _ = sender.send((*number, attempt(figure, workplace, dpi)));
-                }
-            });
-        }
-        drop(sender);
-        for (number, attempt) in receiver {
-            if matches!(attempt.outcome, Err(ReproductionError::Interrupted)) {
-                continue;
-            }
+    let work = |task: usize| {
+        let number = *order.get(task)?;
+        Some((number, attempt(figures.get(number)?, workplace, dpi)))
+    };
+    at_once(order.len(), threads, workplace.stop, &work, &mut |_, attempted| {
+        if let Some((number, attempt)) = attempted
+            && !matches!(attempt.outcome, Err(ReproductionError::Interrupted))
+        {
             done(&attempt);
             attempts.push((number, attempt));
         }

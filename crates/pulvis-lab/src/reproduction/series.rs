@@ -6,7 +6,7 @@ use pulvis_input::scenario::{Scenario, WallControl, WallMotion};
 use std::path::{Path, PathBuf};
 
 /// A run and its time series.
-pub(super) struct FinishedRun<'f> {
+pub(crate) struct FinishedRun<'f> {
     /// Number of the variant.
     pub variant: usize,
     /// What the variant is called.
@@ -98,7 +98,7 @@ impl<'f> FinishedRun<'f> {
 }
 
 /// A row and when it was written.
-pub(super) struct Phased<'r> {
+pub(crate) struct Phased<'r> {
     row: &'r [f64],
     /// Cycles since the stage began [1].
     pub phase: f64,

@@ -8,6 +8,7 @@ use pulvis_input::collision::CollisionScenario;
 use pulvis_input::figure::FigureScenario;
 use pulvis_input::probe::ProbeScenario;
 use pulvis_input::scenario::{Arrangement, Scenario};
+use pulvis_input::study::Study;
 use pulvis_input::{Document, InputErrors};
 use pulvis_io::checkpoint;
 use pulvis_lab::protocol::{self, PictureOptions, RunOptions, explain, prepare};
@@ -21,6 +22,7 @@ pub enum Format {
     Collision,
     Probe,
     Figure,
+    Study,
     Table,
     Checkpoint,
 }
@@ -32,7 +34,8 @@ impl Format {
             0..8 => Self::Scenario,
             8..11 => Self::Collision,
             11..13 => Self::Probe,
-            13..15 => Self::Figure,
+            13 => Self::Figure,
+            14 => Self::Study,
             15..17 => Self::Table,
             _ => Self::Checkpoint,
         }
@@ -45,6 +48,7 @@ pub struct Corpus {
     collisions: Vec<String>,
     probes: Vec<String>,
     figures: Vec<String>,
+    studies: Vec<String>,
     tables: Vec<String>,
     /// Header and contents of a checkpoint.
     checkpoint: (String, Vec<u8>),
@@ -93,8 +97,15 @@ impl Corpus {
         fs::create_dir_all(folder.join("figure")).unwrap();
         let collision = root.join("experiments/figures/s1-06/restitution.toml");
         fs::copy(collision, folder.join("figure/restitution.toml")).unwrap();
+        fs::create_dir_all(folder.join("scenarios")).unwrap();
+        fs::copy(input.join("bad_studies/scenarios/press.toml"), folder.join("scenarios/press.toml"))
+            .unwrap();
+        let own = fs::read_to_string(root.join("experiments/study-restitution/study.toml")).unwrap();
+        let mut studies = often(vec![own.replace("drop.toml", "scenarios/press.toml")], 12);
+        studies.extend(texts(&input.join("bad_studies"), |name| name.ends_with(".toml")));
         let checkpoint = checkpoint_of_a_run(&folder.join("run"));
-        Self { scenarios, collisions, probes, figures, tables, checkpoint, folder: folder.to_owned() }
+        let folder = folder.to_owned();
+        Self { scenarios, collisions, probes, figures, studies, tables, checkpoint, folder }
     }
 
     /// One case. What it was given, and how it ended.
@@ -118,6 +129,12 @@ impl Corpus {
                 let folder = self.folder.join("figure");
                 fs::write(folder.join("figure.toml"), text(&self.figures)).unwrap();
                 judged(FigureScenario::load(&folder).map(drop))
+            }
+            Format::Study => {
+                let document = Document::from_str("case.toml", &text(&self.studies));
+                let file = self.folder.join("case.toml");
+                let load = |document| Study::from_document(&document, &file, &|path| Document::load(path));
+                judged(document.and_then(load).map(drop))
             }
             Format::Table => {
                 fs::write(self.folder.join("table.csv"), text(&self.tables)).unwrap();
