@@ -110,6 +110,10 @@ def test_the_element_and_the_key_of_a_mistake_are_named(luding: pulvis.Law) -> N
     assert refused.value.key == "contact.normal.kp"
     with pytest.raises(pulvis.InputError, match="missing `density`"):
         pulvis.collide(luding, radius=1e-3, velocity=1.0)
+    with pytest.raises(pulvis.InputError, match="at least 1"):
+        pulvis.collide(luding, **BODIES, velocity=0.1, threads=0)
+    with pytest.raises(pulvis.InputError, match=r"collision.velocity \(2,\), contact.normal.kc \(3,\)"):
+        pulvis.collide(luding.replace(kc=[1.0, 2.0, 3.0]), **BODIES, velocity=[0.1, 0.2])
     with pytest.raises(pulvis.InputError, match="an array is empty"):
         pulvis.collide(luding, **BODIES, velocity=[])
     with pytest.raises(pulvis.InputError, match="unknown key") as refused:

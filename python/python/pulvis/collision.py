@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native, _toml
 from ._columns import Columns, from_native
-from .errors import InputError
+from .errors import InputError, checked_threads
 from .laws import Contact, Law, as_contact
 
 if TYPE_CHECKING:
@@ -169,7 +169,11 @@ def collide(
             for role, table in as_contact(contact).tables().items()
         },
     }
-    shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
+    try:
+        shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
+    except ValueError:
+        shapes = ", ".join(f"{path} {array.shape}" for path, array in arrays.items())
+        raise InputError(f"arrays of these shapes cannot be broadcast against each other: {shapes}") from None
     full = {path: np.broadcast_to(array, shape) for path, array in arrays.items()}
     size = int(np.prod(shape, dtype=int))
     if size == 0:
@@ -177,7 +181,7 @@ def collide(
     values = np.empty((len(full), size))
     for row, array in zip(values, full.values()):
         row[:] = array.ravel()
-    native, courses = _native.collide(_toml.dumps(scenario), list(full), values, record, threads)
+    native, courses = _native.collide(_toml.dumps(scenario), list(full), values, record, checked_threads(threads))
     columns = {name: column.reshape(shape) for name, column in from_native(native).items()}
     swept = []
     for path, array in full.items():

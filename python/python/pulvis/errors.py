@@ -5,6 +5,13 @@ from __future__ import annotations
 __all__ = ["InputError", "InternalError", "PulvisError", "RunError", "ViewError"]
 
 
+def checked_threads(threads: int | None) -> int | None:
+    """A number of threads, or ``None`` for as many as there is work for."""
+    if threads is not None and (isinstance(threads, bool) or not hasattr(threads, "__index__") or threads < 1):
+        raise InputError(f"threads: found {threads!r}, expected a whole number of at least 1", key="threads")
+    return threads
+
+
 class PulvisError(Exception):
     """Whatever Pulvis refuses or cannot do."""
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _native
 from ._columns import Columns
-from .errors import InputError
+from .errors import InputError, checked_threads
 from .simulation import Scenario, Settings, StageEnd, source_of
 
 __all__ = ["Run", "resume", "run"]
@@ -104,7 +104,7 @@ def run(
         Ctrl-C: files are complete, and a checkpoint is written, from which :func:`resume` goes on.
     """
     folder = None if output is None else os.fspath(output)
-    arguments = (list((set or {}).items()), folder, force, threads, svg, False, progress)
+    arguments = (list((set or {}).items()), folder, force, checked_threads(threads), svg, False, progress)
     summary = _native.run(source_of(scenario), *arguments)
     return Run(summary["folder"], summary)
 
@@ -123,5 +123,5 @@ def resume(
     InputError
         There is no run, it goes on or has ended, or its checkpoint cannot be used.
     """
-    summary = _native.run(os.fspath(folder), [], None, False, threads, False, True, progress)
+    summary = _native.run(os.fspath(folder), [], None, False, checked_threads(threads), False, True, progress)
     return Run(summary["folder"], summary)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _native, _toml
 from ._columns import Columns
-from .errors import InputError
+from .errors import InputError, checked_threads
 
 if TYPE_CHECKING:
     import pandas
@@ -194,7 +194,7 @@ class Simulation:
         return simulation
 
     def _start(self, source: Any, set: Settings | None, threads: int | None) -> None:
-        self._session = _native.Session(source, list((set or {}).items()), threads)
+        self._session = _native.Session(source, list((set or {}).items()), checked_threads(threads))
         self._callbacks: list[tuple[int, Callable[[Simulation], object]]] = []
         self._rows: list[NDArray[np.float64]] = []
         for text in self._session.warnings:
@@ -244,7 +244,7 @@ class Simulation:
 
     @threads.setter
     def threads(self, threads: int) -> None:
-        self._session.threads = threads
+        self._session.threads = checked_threads(threads) or 1
 
     def advance(self, steps: int = 1) -> int:
         """Takes steps; stages change on the way. Ctrl-C stops it between two steps within 0.2 s.
