@@ -27,10 +27,15 @@ pub(super) fn clusters(scenario: &Scenario, simulation: &Simulation) -> Clusters
     let size = ids.iter().max().map_or(0, |most| *most as usize + 1);
     let mut groups = Groups::new(size);
     let mut at_walls: Vec<(usize, usize)> = Vec::new();
-    simulation.for_each_contact(&mut |contact| match contact.second {
-        ContactPartner::Particle(other) => groups.join(contact.first as usize, other as usize),
-        ContactPartner::Wall(wall) => at_walls.push((contact.first as usize, wall)),
+    let gathered = simulation.gather_contacts(|pairs: &mut Vec<(usize, ContactPartner)>, contact| {
+        pairs.push((contact.first as usize, contact.second));
     });
+    for (first, second) in gathered.into_iter().flatten() {
+        match second {
+            ContactPartner::Particle(other) => groups.join(first, other as usize),
+            ContactPartner::Wall(wall) => at_walls.push((first, wall)),
+        }
+    }
     let mut members = vec![0_usize; size];
     for &id in ids {
         members[groups.root(id as usize)] += 1;
