@@ -260,8 +260,13 @@ fn checkpoints_that_cannot_be_used_are_refused_and_another_one_is_offered() {
             "{}",
             out(&info)
         );
-        let offered =
-            message.split("; ").nth(usize::from(name == "newer") + 1).unwrap().split(' ').next().unwrap();
+        let offered = message
+            .split("; ")
+            .nth(usize::from(["newer", "older"].contains(&name)) + 1)
+            .unwrap()
+            .split(' ')
+            .next()
+            .unwrap();
         let output = resume(&place, offered, &[]);
         assert!(is_complete(&output), "{}", error(&output));
         assert_same_files(&place.0.join(name), &place.0.join("whole"));
