@@ -289,15 +289,17 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_checkpoint_and_what_is_newer_is_told_from_damage() {
+    fn what_is_no_checkpoint_and_what_is_newer_or_older_is_told_from_damage() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("c");
         for foreign in ["", "Pulvis", "title = \"a scenario\"\nseed = 3"] {
             fs::write(&path, foreign).unwrap();
             assert!(matches!(read(&path), Err(CheckpointError::Foreign)), "{foreign}");
         }
-        fs::write(&path, "Pulvis checkpoint 2\nwhatever comes").unwrap();
-        assert!(matches!(read(&path), Err(CheckpointError::Newer { found: 2 })));
+        fs::write(&path, "Pulvis checkpoint 3\nwhatever comes").unwrap();
+        assert!(matches!(read(&path), Err(CheckpointError::Newer { found: 3 })));
+        fs::write(&path, "Pulvis checkpoint 1\nwhatever came").unwrap();
+        assert!(matches!(read(&path), Err(CheckpointError::Older { found: 1 })));
         fs::write(&path, "Pulvis checkpoint one\n\n").unwrap();
         assert!(matches!(read(&path), Err(CheckpointError::Damaged)));
         for missing in [folder.path().join("none"), folder.path().to_owned()] {

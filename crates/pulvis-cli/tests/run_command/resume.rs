@@ -223,14 +223,21 @@ fn checkpoints_that_cannot_be_used_are_refused_and_another_one_is_offered() {
     flipped[sound.len() / 2] ^= 1;
     let newer =
         String::from_utf8_lossy(&sound[..60]).replacen("checkpoint 2", "checkpoint 7", 1).into_bytes();
-    let cases: [(&str, &[u8], &str); 4] = [
+    let older =
+        String::from_utf8_lossy(&sound[..60]).replacen("checkpoint 2", "checkpoint 1", 1).into_bytes();
+    let cases: [(&str, &[u8], &str); 5] = [
         ("flipped", &flipped, "is damaged or cut off: its checksum is another one"),
         ("cut", &sound[..sound.len() - 100], "is damaged or cut off: its checksum is another one"),
         ("foreign", b"title = \"mine\"", "is no checkpoint of Pulvis"),
         (
             "newer",
             &newer,
-            "has version 7 of the format, and this program reads versions up to 1; take a newer Pulvis",
+            "has version 7 of the format, and this program reads version 2; take a newer Pulvis",
+        ),
+        (
+            "older",
+            &older,
+            "has version 1 of the format, and this program reads version 2; take the Pulvis that its header names",
         ),
     ];
     for (name, bytes, reason) in cases {
@@ -253,8 +260,13 @@ fn checkpoints_that_cannot_be_used_are_refused_and_another_one_is_offered() {
             "{}",
             out(&info)
         );
-        let offered =
-            message.split("; ").nth(usize::from(name == "newer") + 1).unwrap().split(' ').next().unwrap();
+        let offered = message
+            .split("; ")
+            .nth(usize::from(["newer", "older"].contains(&name)) + 1)
+            .unwrap()
+            .split(' ')
+            .next()
+            .unwrap();
         let output = resume(&place, offered, &[]);
         assert!(is_complete(&output), "{}", error(&output));
         assert_same_files(&place.0.join(name), &place.0.join("whole"));

@@ -1,5 +1,6 @@
 //! Contacts between particles.
 
+use pulvis_boundary::Images;
 use pulvis_contact::friction::CommonFriction;
 use pulvis_contact::normal::{CommonLawVisitor, Inlined, NormalSource};
 use pulvis_contact::{NormalLaw, levels};
@@ -8,7 +9,7 @@ use pulvis_math::{Kernel, Mask, Simd8};
 use super::super::block::{ContactGroup, occupied_lanes};
 use super::batch::{BATCH, Batch, BlockSums, Response, gather, gather_apart};
 use super::normal::{NormalCall, Pointed};
-use super::{Advance, KinematicColumns, Loop, finish, response, step_middle, wants};
+use super::{Flow, KinematicColumns, Loop, finish, response, step_middle, wants};
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
 
@@ -126,10 +127,11 @@ unsafe fn sweep_pairs<R: Simd8, C: NormalCall<R>, const RESISTANCE: u8, const LE
 ) {
     let Loop { group, sums, moving, advance, approach, mut prefetch } = contacts;
     let sums = Shared::new(sums);
-    // By value: otherwise the compiler reads it again after every store.
+    // By value, as far as every block needs it: otherwise the compiler reads it again after every store.
     let gathering = Gathering {
         moving,
-        advance: *advance,
+        images: advance.images,
+        flow: advance.flow.as_ref(),
         approach,
         range: group.interaction_range,
         turning_dashpots: group.model.laws.has_resistance_dashpot(),
@@ -168,7 +170,9 @@ unsafe fn sweep_pairs<R: Simd8, C: NormalCall<R>, const RESISTANCE: u8, const LE
 #[derive(Clone, Copy)]
 struct Gathering<'a> {
     moving: KinematicColumns<'a>,
-    advance: Advance,
+    images: Images,
+    /// The flow of the cell, if there is one.
+    flow: Option<&'a Flow>,
     approach: f64,
     /// How far beyond touching the contacts act [m].
     range: f64,
@@ -192,7 +196,7 @@ impl Gathering<'_> {
         block: usize,
         batch: &mut Batch<R>,
     ) {
-        let Self { moving, advance, approach, range, turning_dashpots } = self;
+        let Self { moving, images, flow, approach, range, turning_dashpots } = self;
         // SAFETY (here and below): every block has its gap, its flags and its rows.
         let active = unsafe { group.active.get_unchecked_mut(block) };
         if unsafe { *group.gap.get_unchecked(block) } > approach && !*active {
@@ -205,7 +209,7 @@ impl Gathering<'_> {
         let (centre_j, radius_j) = unsafe { gather::<R>(moving.position, second) };
         let mut separation = centre_i - centre_j;
         if unsafe { *group.crosses_boundary.get_unchecked(block) } {
-            separation = advance.images.nearest(separation);
+            separation = images.nearest(separation);
         }
         let distance = separation.norm();
         let overlap = radius_i + radius_j - distance;
@@ -229,7 +233,7 @@ impl Gathering<'_> {
         (motion.overlap, motion.inverse_distance) = (overlap, inverse_distance);
         (motion.radius_i, motion.radius_j) = (radius_i, radius_j);
         (motion.velocity, motion.velocity_mid) = (velocity, velocity_mid);
-        if let Some(flow) = &advance.flow {
+        if let Some(flow) = flow {
             motion.velocity += flow.end.times(separation);
             motion.velocity_mid += flow.mid.times(separation);
         }
