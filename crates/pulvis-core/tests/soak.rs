@@ -88,10 +88,11 @@ fn compare(simulation: &Simulation) -> usize {
     by_force(simulation, 0.0).len()
 }
 
-/// Resident memory of this process [byte]; `None` where the system does not say.
+/// Memory of this process that is not of files [byte], as of its program, parts of which come and go; `None` where the system
+/// does not say.
 fn resident() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    let line = status.lines().find_map(|line| line.strip_prefix("RssAnon:"))?;
     Some(1024.0 * line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok()?)
 }
 

@@ -122,3 +122,44 @@ fn regions_that_fill_space_share_every_line_out_between_them_across_periods_too(
         }
     }
 }
+
+#[test]
+fn regions_of_a_sheared_cell_take_images_along_its_edges() {
+    let domain = Domain { tilts: [0.3, -0.2, 0.4], ..Domain::periodic(corner(0.0), corner(1.0), [true; 3]) };
+    let layers = [(0.0, 0.25), (0.25, 1.0)].map(|(lower, upper)| Region::Layer { axis: 2, lower, upper });
+    // The block in eight boxes, whose images fill space as those of the cell do.
+    let boxes: Vec<Region> = (0..8)
+        .map(|number| {
+            let lower = [0, 1, 2].map(|axis| if number >> axis & 1 == 1 { 0.4 } else { 0.0 });
+            let upper = lower.map(|lower| if lower > 0.0 { 1.0 } else { 0.4 });
+            Region::Box(Cuboid { lower: lower.into(), upper: upper.into() })
+        })
+        .collect();
+    let ball = Region::Sphere { centre: corner(0.05), radius: 0.2 };
+    for step in 0..60 {
+        let at = f64::from(step) * 0.0371 - 0.9;
+        let from = Vector3::new(at, 1.0 - 2.0 * at, 0.3 + 1.7 * at);
+        for parts in [&layers[..], &boxes] {
+            assert_eq!(parts.iter().filter(|part| part.contains(from, &domain)).count(), 1, "{from:?}");
+            for to in [[0.3, 0.1, 0.2], [-0.3, 0.2, -0.1], [0.0, -0.2, 0.1]] {
+                let to = from + Vector3::from(to);
+                let sum: f64 = parts.iter().map(|part| part.share_of_line(from, to, &domain)).sum();
+                assert!((sum - 1.0).abs() < 1e-13, "{from:?} {to:?} {sum}");
+            }
+        }
+        for axis in 0..3 {
+            let image = from + domain.shift(axis);
+            for region in boxes.iter().chain(&layers).chain([&ball]) {
+                assert_eq!(
+                    region.contains(from, &domain),
+                    region.contains(image, &domain),
+                    "{from:?} {axis}"
+                );
+            }
+        }
+    }
+    // Over the corner of the block, and the image of the centre one edge along z farther.
+    for edge in [Vector3::zero(), domain.shift(1), -domain.shift(2), domain.shift(0) - domain.shift(1)] {
+        assert!(ball.contains(corner(-0.05) + edge, &domain), "{edge:?}");
+    }
+}

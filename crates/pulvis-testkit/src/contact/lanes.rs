@@ -48,7 +48,9 @@ pub(super) fn lanes_give_the_bits_of_the_plain_number(model: &ContactModel, draw
             assert_eq!(numbers(&together, lane), numbers(&alone, 0), "{model:?} {alone:?}");
             assert_eq!(state(&memory, lane), state(&memories[lane], 0), "{model:?}");
             if let Some(of_loop) = &of_loop {
-                assert_eq!(numbers(of_loop, lane), numbers(&alone, 0), "inlined: {model:?} {alone:?}");
+                let [found, expected] =
+                    [numbers(of_loop, lane), numbers(&alone, 0)].map(without_signs_of_zeros);
+                assert_eq!(found, expected, "inlined: {model:?} {alone:?}");
                 assert_eq!(state(&inlined_memory, lane), state(&memories[lane], 0), "inlined: {model:?}");
             }
         }
@@ -118,6 +120,12 @@ fn numbers<R: Real>(answer: &ContactResponse<R>, lane: usize) -> Vec<u64> {
     }
     all.extend(answer.energies.accounts().map(|(_, energy)| energy));
     all.into_iter().map(|number| number.lane(lane).to_bits()).collect()
+}
+
+/// A law that is compiled into its loop may give −0 where it gives 0 otherwise: sums begin with 0, and 0 + (−0) is 0.
+fn without_signs_of_zeros(bits: Vec<u64>) -> Vec<u64> {
+    const MINUS_ZERO: u64 = 1 << 63;
+    bits.into_iter().map(|bits| if bits == MINUS_ZERO { 0 } else { bits }).collect()
 }
 
 fn state<R: Real>(columns: &[R], lane: usize) -> Vec<u64> {

@@ -20,7 +20,8 @@ use crate::shared::Shared;
 /// As of [`sweep`](super::sweep).
 pub(super) unsafe fn sweep(contacts: Loop<'_>) {
     let model = &contacts.group.model;
-    if model.is_common() && !contacts.advance.pointers {
+    // In a flow, only the loops that call laws through pointers are compiled: a loop takes seconds.
+    if model.is_common() && !contacts.advance.pointers && contacts.advance.flow.is_none() {
         let normal = model.normal;
         // A common contact has a common law.
         let _ = normal.accept_common(CommonPairs(contacts));
@@ -31,12 +32,19 @@ pub(super) unsafe fn sweep(contacts: Loop<'_>) {
 
 /// Runs the loop that calls laws through pointers.
 fn run_pointed(contacts: Loop<'_>) {
+    match contacts.advance.flow {
+        None => run_level::<false>(contacts),
+        Some(_) => run_level::<true>(contacts),
+    }
+}
+
+fn run_level<const FLOW: bool>(contacts: Loop<'_>) {
     let model = &contacts.group.model;
     let set = contacts.advance.instructions;
     match model.laws.resistance_level() {
-        levels::NONE => set.run(PointedPairs::<{ levels::NONE }>(contacts)),
-        levels::SLIDING => set.run(PointedPairs::<{ levels::SLIDING }>(contacts)),
-        _ => set.run(PointedPairs::<{ levels::ALL }>(contacts)),
+        levels::NONE => set.run(PointedPairs::<{ levels::NONE }, FLOW>(contacts)),
+        levels::SLIDING => set.run(PointedPairs::<{ levels::SLIDING }, FLOW>(contacts)),
+        _ => set.run(PointedPairs::<{ levels::ALL }, FLOW>(contacts)),
     }
 }
 
@@ -94,14 +102,14 @@ impl<N: NormalLaw, const RESISTANCE: u8, const LEDGER: bool> Kernel
         let ledger = const { every_loop::<N>() } || self.contacts.advance.ledger;
         let response = response(Inlined(self.law), self.contacts.group, self.contacts.advance, ledger);
         // SAFETY: as the caller of `sweep` vouches.
-        unsafe { sweep_pairs::<R, _, RESISTANCE, LEDGER>(response, self.contacts) };
+        unsafe { sweep_pairs::<R, _, RESISTANCE, LEDGER, false>(response, self.contacts) };
     }
 }
 
 /// The loop over contacts whose normal law is called through a pointer.
-struct PointedPairs<'a, const RESISTANCE: u8>(Loop<'a>);
+struct PointedPairs<'a, const RESISTANCE: u8, const FLOW: bool>(Loop<'a>);
 
-impl<const RESISTANCE: u8> Kernel for PointedPairs<'_, RESISTANCE> {
+impl<const RESISTANCE: u8, const FLOW: bool> Kernel for PointedPairs<'_, RESISTANCE, FLOW> {
     type Output = ();
 
     #[inline(always)]
@@ -112,7 +120,7 @@ impl<const RESISTANCE: u8> Kernel for PointedPairs<'_, RESISTANCE> {
         let call = Pointed::<R, false>::new(&model, slots, step_middle(advance), wants(group, advance));
         let response = response(call, group, advance, advance.ledger);
         // SAFETY: as the caller of `sweep` vouches.
-        unsafe { sweep_pairs::<R, _, RESISTANCE, true>(response, contacts) };
+        unsafe { sweep_pairs::<R, _, RESISTANCE, true, FLOW>(response, contacts) };
     }
 }
 
@@ -121,7 +129,13 @@ impl<const RESISTANCE: u8> Kernel for PointedPairs<'_, RESISTANCE> {
 /// # Safety
 /// As of [`sweep`](super::sweep).
 #[inline(always)]
-unsafe fn sweep_pairs<R: Simd8, C: NormalCall<R>, const RESISTANCE: u8, const LEDGER: bool>(
+unsafe fn sweep_pairs<
+    R: Simd8,
+    C: NormalCall<R>,
+    const RESISTANCE: u8,
+    const LEDGER: bool,
+    const FLOW: bool,
+>(
     mut response: Response<C>,
     contacts: Loop<'_>,
 ) {
@@ -150,7 +164,7 @@ unsafe fn sweep_pairs<R: Simd8, C: NormalCall<R>, const RESISTANCE: u8, const LE
         group.batches += 1;
         while next < blocks && !batch.is_full() {
             // SAFETY: `next` is a block of the group; the rest as the caller vouches.
-            unsafe { gathering.gather::<R, RESISTANCE>(group, next, &mut batch) };
+            unsafe { gathering.gather::<R, RESISTANCE, FLOW>(group, next, &mut batch) };
             if reads && let Some(index) = batch.index_of_last(next) {
                 response.call.gather_quantities(index, group, moving.quantities, next);
             }
@@ -190,7 +204,7 @@ impl Gathering<'_> {
     /// # Safety
     /// `block` is one of the group's, whose rows lie within the columns; nobody writes those meanwhile.
     #[inline(always)]
-    unsafe fn gather<R: Simd8, const RESISTANCE: u8>(
+    unsafe fn gather<R: Simd8, const RESISTANCE: u8, const FLOW: bool>(
         self,
         group: &mut ContactGroup,
         block: usize,
@@ -233,7 +247,7 @@ impl Gathering<'_> {
         (motion.overlap, motion.inverse_distance) = (overlap, inverse_distance);
         (motion.radius_i, motion.radius_j) = (radius_i, radius_j);
         (motion.velocity, motion.velocity_mid) = (velocity, velocity_mid);
-        if let Some(flow) = flow {
+        if FLOW && let Some(flow) = flow {
             motion.velocity += flow.end.times(separation);
             motion.velocity_mid += flow.mid.times(separation);
         }
