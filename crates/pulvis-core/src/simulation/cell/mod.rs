@@ -4,7 +4,9 @@
 //! no part of its own. An image of a particle then has the velocity of the particle, and two particles approach each other
 //! with c_i − c_j + G (x_i − x_j), whichever images they are: nothing in a cell can tell where its boundary or its origin is.
 //!
-//!     x' = c + G x,    m c' = f − m G c,    dE/dt = −V σ : G,    V σ = Σ m c ⊗ c + Σ f ⊗ b
+//! ```text
+//! x' = c + G x,    m c' = f − m G c,    dE/dt = −V σ : G,    V σ = Σ m c ⊗ c + Σ f ⊗ b
+//! ```
 //!
 //! For a shear of constant rate, and for a length that grows at a constant speed, these are Newton's equations of
 //! v = c + G x. The energy E is that of the peculiar motion and of the contacts.
