@@ -211,7 +211,7 @@ fn a_run_that_fails_is_recorded_and_stops_no_other() {
 #[cfg(unix)]
 #[test]
 fn a_study_that_is_interrupted_goes_on_to_the_same_tables() {
-    let scenario = TINY.replace("until = { time = \"1 ms\" }", "until = { time = \"40 ms\" }");
+    let scenario = TINY.replace("until = { time = \"1 ms\" }", "until = { time = \"100 ms\" }");
     let place = with_study("study_interrupted", &scenario, GAS);
     let whole = study(&place, &["--output", "whole"]);
     assert_eq!(whole.status.code(), Some(0), "{}", error(&whole));
@@ -230,7 +230,10 @@ fn a_study_that_is_interrupted_goes_on_to_the_same_tables() {
     assert_eq!(code, Some(130));
     let states = Rows::of(&place, "cut/runs.csv");
     let count = |word: &str| states.column("status").iter().filter(|status| **status == word).count();
-    assert_eq!((count("interrupted"), count("waiting")), (1, 5), "{:?}", states.column("status"));
+    // The signal may come between two runs.
+    let [complete, interrupted, waiting] = ["complete", "interrupted", "waiting"].map(count);
+    assert!(interrupted <= 1 && waiting >= 1, "{:?}", states.column("status"));
+    assert_eq!(complete + interrupted + waiting, 6, "{:?}", states.column("status"));
     let resumed = study(&place, &["--output", "cut"]);
     assert_eq!(resumed.status.code(), Some(0), "{}{}", out(&resumed), error(&resumed));
     for file in ["runs.csv", "study.csv", "study.json", "runs/v=1-m-s/seed-5/timeseries.csv", "E0.png"] {
