@@ -16,6 +16,7 @@ use pulvis_lab::protocol::{
 };
 
 use super::allow::Allowed;
+use super::regime::describe_regimes;
 use super::set::Settings;
 use super::words::duration;
 use crate::failure::{Failure, print};
@@ -98,6 +99,7 @@ fn describe(scenario: &Scenario, forecast: &Preflight) -> String {
         let heading = if number == 0 { "stages" } else { "" };
         let _ = writeln!(text, "{heading:<17} {}", describe_stage(stage));
     }
+    describe_regimes(&mut text, &forecast.regimes);
     describe_memory(&mut text, scenario, forecast);
     let _ = writeln!(text, "time              {}", describe_time(forecast));
     describe_output(&mut text, scenario, forecast);

@@ -10,6 +10,7 @@ mod machine;
 mod picture_file;
 mod probe;
 mod progress;
+mod regime;
 mod render;
 mod reproduce;
 mod run;

@@ -17,6 +17,7 @@ use super::error::PrepareError;
 use super::folder;
 use super::measure::Measure;
 use super::memory::{held_states, memory_forecast};
+use super::regime::{StageRegime, regimes};
 use super::setup::{Prepared, describe_motion, prepare};
 use super::stage::LEAST_STEPS_TO_REST;
 use super::timing::stage_costs;
@@ -45,6 +46,8 @@ pub struct Preflight {
     pub contacts: Vec<ContactForecast>,
     /// What the stages will be like.
     pub stages: Vec<StageForecast>,
+    /// In what regime the stages will be: those in which something presses or drives the particles, and a gas at the start.
+    pub regimes: Vec<StageRegime>,
     /// Memory that the run needs at its start, by the sizes of particles and candidates, with the states that are held for
     /// checkpoints [byte].
     pub memory: u64,
@@ -161,6 +164,7 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
         total_mass: particles.iter().map(|particle| particle.mass).sum(),
         contacts: forecasts(scenario, particles),
         stages: stages(scenario, &prepared),
+        regimes: regimes(scenario, particles, &prepared.stages),
         memory: prepared.simulation.memory_size() as u64 + held_states(scenario, particles.len()),
         packed_memory: memory.map(|memory| memory.packed),
         available_memory: memory.and_then(|memory| memory.available),
@@ -231,7 +235,11 @@ fn forecasts(scenario: &Scenario, particles: &[Particle]) -> Vec<ContactForecast
 
 /// What the laws of a contact read at the start; the name of a quantity of which particles of one material have several
 /// values.
-fn surroundings(scenario: &Scenario, contact: &Contact, at_wall: bool) -> Result<Surroundings, &'static str> {
+pub(super) fn surroundings(
+    scenario: &Scenario,
+    contact: &Contact,
+    at_wall: bool,
+) -> Result<Surroundings, &'static str> {
     let mut quantities = Vec::new();
     for quantity in contact.model.particle_quantities() {
         let of_material = |material: usize| -> Result<Option<f64>, &'static str> {

@@ -225,7 +225,7 @@ impl Course<'_> {
 }
 
 /// The highest pressure that a motion comes to in the stage [Pa], if it has one: ramps rise or fall all the way.
-fn highest_pressure(motion: &WallMotion, until: &StopRules) -> Option<f64> {
+pub(super) fn highest_pressure(motion: &WallMotion, until: &StopRules) -> Option<f64> {
     let motion = motion.law();
     Some(motion.pressure(0.0)?.max(motion.pressure(until.time.unwrap_or(f64::INFINITY))?))
 }
