@@ -7,6 +7,7 @@ mod explain;
 mod info;
 mod laws;
 mod machine;
+mod new;
 mod picture_file;
 mod probe;
 mod progress;
@@ -29,6 +30,8 @@ use crate::failure::Failure;
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Writes a commented scenario to begin with
+    New(new::Arguments),
     /// Checks a scenario and says what the run will be like, without running it
     Check(check::Arguments),
     /// Runs the stages of a scenario
@@ -57,6 +60,7 @@ impl Command {
     /// Does it.
     pub fn execute(&self) -> Result<ExitCode, Failure> {
         match self {
+            Self::New(arguments) => new::execute(arguments),
             Self::Check(arguments) => check::execute(arguments),
             Self::Run(arguments) => run::execute(arguments),
             Self::Render(arguments) => render::execute(arguments),

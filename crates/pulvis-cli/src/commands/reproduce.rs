@@ -151,7 +151,10 @@ fn compute(arguments: &Arguments, figures: Vec<FigureScenario>) -> Result<ExitCo
         bar.finish_and_clear();
     }
     let mut facts = facts(start.elapsed().as_secs_f64());
-    facts.push(("random numbers".to_owned(), "those of the seeds in the scenarios; collisions and paths have none".to_owned()));
+    facts.push((
+        "random numbers".to_owned(),
+        "those of the seeds in the scenarios; collisions and paths have none".to_owned(),
+    ));
     let written = report(&attempts, facts).map_err(Failure::while_running)?;
     written.write(&arguments.output).map_err(Failure::while_running)?;
     let good = attempts.iter().filter(|attempt| attempt.passes()).count();

@@ -40,7 +40,8 @@ fn check_says_what_the_run_will_be_like_and_writes_nothing() {
 #[test]
 fn check_tells_softness_and_bond_number_of_what_is_pressed() {
     // 27 particles are no bulk, 64 are.
-    let many = [("counts = [3, 3, 3]", "counts = [4, 4, 4]"), (r#"spacing = "2.2 mm""#, r#"spacing = "2.2 mm""#)];
+    let many =
+        [("counts = [3, 3, 3]", "counts = [4, 4, 4]"), (r#"spacing = "2.2 mm""#, r#"spacing = "2.2 mm""#)];
     let pressed = [many[0], many[1], ("6.6 mm", "8.8 mm"), (UNTIL, PRESSED)];
     let text = checked("regime", &pressed);
     // By hand: f = π (2 mm)² 100 Pa/3.6 = 3.4907e-4 N, δ = f/k1 = 3.4907 µm: p* = 100 Pa · 2 mm/(100 N/m); x = 4 δ/62.5 µm =
@@ -68,7 +69,7 @@ const NORMAL: &str =
     r#"normal = { law = "luding", k1 = "100 N/m", kp = "500 N/m", kc = "100 N/m", phi_f = 0.05 }"#;
 const UNTIL: &str = r#"until = { time = "1 ms" }"#;
 const PRESSED: &str = r#"until = { time = "1 ms" }
-walls.z-high = { motion = "servo", pressure = "100 Pa", mass = "1 g", damping = "1e-2 kg/s" }"#;
+walls.z-high = { control = "servo", pressure = "100 Pa", mass = "1 g", damping = "1e-2 kg/s" }"#;
 const VELOCITY: &str = r#"velocity = { standard_deviation = "1 m/s" }"#;
 
 #[test]
