@@ -50,6 +50,8 @@ walls.z-high = { control = "servo", pressure = "20 Pa", from = "1 Pa", ramp = "1
 name = "shake"
 walls.x-high = { control = "cosine", displacement = ["-0.3 mm", "0 mm", "0 mm"], period = "10 ms", cycles = 3.0 }
 set = { "contacts.grain-grain.normal.kc" = "20 N/m" }
+program_updates = 50
+programs = { "contacts.grain-grain.sliding.mu" = [["0 ms", 0.5], ["20 ms", 0.2]], "background.drag" = [["5 ms", "0 kg/s"], ["25 ms", "1e-5 kg/s"]] }
 
 [output]
 timeseries = { interval = "0.2 ms" }
@@ -232,12 +234,12 @@ fn checkpoints_that_cannot_be_used_are_refused_and_another_one_is_offered() {
         (
             "newer",
             &newer,
-            "has version 7 of the format, and this program reads version 2; take a newer Pulvis",
+            "has version 7 of the format, and this program reads version 3; take a newer Pulvis",
         ),
         (
             "older",
             &older,
-            "has version 1 of the format, and this program reads version 2; take the Pulvis that its header names",
+            "has version 1 of the format, and this program reads version 3; take the Pulvis that its header names",
         ),
     ];
     for (name, bytes, reason) in cases {

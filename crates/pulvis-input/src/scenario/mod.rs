@@ -48,6 +48,7 @@ mod output;
 mod particles;
 mod placement;
 mod points;
+mod programs;
 mod radius;
 mod region;
 mod resolved;
@@ -74,6 +75,7 @@ pub use observers::{ObservedQuantity, Observer};
 pub use output::{CheckpointPlan, Dimensionless, Interval, OutputPlan, Snapshots};
 pub use particles::{ParticleGroup, VelocityPlan};
 pub use points::PointsError;
+pub use programs::{Program, ProgramState, Programs};
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};
 pub use pulvis_boundary::{
     Background, CellControl, CellMotion, Cuboid, Cylinder, CylinderSide, Domain, Plane, Region,
@@ -200,12 +202,12 @@ impl Scenario {
     }
 
     /// The scenario as it holds in one of its stages, without stages: contacts, background and time step are what earlier
-    /// stages and this one have made of them. `index` is that of a stage.
+    /// stages and this one have made of them; programs have come to their end. `index` is that of a stage.
     pub fn as_in_stage(&self, index: usize) -> Self {
         let mut scenario = Self { stages: Vec::new(), ..self.clone() };
         if let Some(stage) = self.stages.get(index) {
-            scenario.contacts.clone_from(&stage.contacts);
-            (scenario.background, scenario.time) = (stage.background, stage.time);
+            scenario.contacts = stage.last_contacts().to_vec();
+            (scenario.background, scenario.time) = (stage.last_background(), stage.time);
         }
         scenario
     }

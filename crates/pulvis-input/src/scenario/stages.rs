@@ -5,6 +5,7 @@ use super::cell::read_cell;
 use super::contacts::Contact;
 use super::controls::{WallControl, read_control};
 use super::particles::no_tables;
+use super::programs::{PlannedPrograms, Programs, read_programs};
 use super::region::read_region;
 use super::switches::{Switch, read_switches};
 use super::time::{TimeStep, read_time};
@@ -37,6 +38,32 @@ pub struct Stage {
     pub background: Background,
     /// How long a time step is.
     pub time: TimeStep,
+    /// What changes of contacts, gravity and drag while the stage runs.
+    pub programs: Option<Programs>,
+}
+
+impl Stage {
+    /// The contacts that the stage leaves to the next one.
+    pub fn last_contacts(&self) -> &[Contact] {
+        self.programs
+            .as_ref()
+            .and_then(|programs| programs.states.last())
+            .map_or(&self.contacts, |last| &last.contacts)
+    }
+
+    /// The background that the stage leaves to the next one.
+    pub fn last_background(&self) -> Background {
+        self.programs
+            .as_ref()
+            .and_then(|programs| programs.states.last())
+            .map_or(self.background, |last| last.background)
+    }
+
+    /// All contacts that there are during the stage, those of the start first.
+    pub fn all_contacts(&self) -> impl Iterator<Item = &Contact> {
+        let later = self.programs.iter().flat_map(|programs| programs.states.iter().skip(1));
+        self.contacts.iter().chain(later.flat_map(|state| &state.contacts))
+    }
 }
 
 /// A stage as it stands in the file, before its switches have been applied.
@@ -50,6 +77,7 @@ pub(super) struct PlannedStage {
     /// With its place in the file.
     pub(super) cell: Option<(CellMotion, Location)>,
     pub(super) switches: Vec<Switch>,
+    pub(super) programs: Option<PlannedPrograms>,
     pub(super) time: TimeStep,
     pub(super) place: Location,
 }
@@ -105,6 +133,7 @@ fn read_stage(
     let controls = read_controls(&mut table, walls, now);
     let cell = read_cell_now(&mut table, walls, now);
     let switches = read_switches(&mut table);
+    let programs = read_programs(&mut table, until.as_ref().ok());
     let time = read_time(&mut table, now.time);
     if let Ok(time) = time {
         now.time = time;
@@ -123,6 +152,7 @@ fn read_stage(
         controls: controls?,
         cell: cell?,
         switches: switches?,
+        programs: programs?,
         time: time?,
         place,
     })

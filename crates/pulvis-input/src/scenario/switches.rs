@@ -3,9 +3,10 @@
 use crate::context::{Location, Reported};
 use crate::document::Document;
 use crate::error::InputErrors;
-use crate::overrides::Replacement;
+use crate::overrides::{Copied, Replacement};
 use crate::problem::Problem;
 use crate::reader::TableReader;
+use crate::value::{Node, Value};
 
 /// One key that a stage sets.
 #[derive(Clone, Debug)]
@@ -17,6 +18,32 @@ pub(super) struct Switch {
 
 /// The parts of a scenario that may change while it runs.
 const SWITCHABLE: [&str; 3] = ["contacts", "background", "gravity"];
+
+impl Switch {
+    pub(super) fn new(path: String, value: Replacement, place: Location) -> Self {
+        Self { path, value, place }
+    }
+
+    /// The same key set to a number in SI, in the same place of the file.
+    pub(super) fn with_number(&self, number: f64) -> Self {
+        let value = match &self.value {
+            Replacement::Copied(Copied(node)) => {
+                Replacement::Copied(Copied(Node { value: Value::Si(number), ..node.clone() }))
+            }
+            _ => Replacement::Si(number),
+        };
+        Self { value, ..self.clone() }
+    }
+}
+
+/// Whether a key may change while a scenario runs.
+pub(super) fn is_switchable(path: &str) -> bool {
+    SWITCHABLE.contains(&first_part(path))
+}
+
+fn first_part(path: &str) -> &str {
+    path.split(['.', '[']).next().unwrap_or_default()
+}
 
 /// Reads `[stages.set]`.
 pub(super) fn read_switches(stage: &mut TableReader<'_>) -> Result<Vec<Switch>, Reported> {
@@ -35,11 +62,10 @@ fn collect(mut table: TableReader<'_>, parent: &str, switches: &mut Vec<Switch>)
     for key in table.keys() {
         let Some(value) = table.value(key) else { continue };
         let path = if parent.is_empty() { key.to_owned() } else { format!("{parent}.{key}") };
-        let first = path.split(['.', '[']).next().unwrap_or_default();
-        if !SWITCHABLE.contains(&first) {
+        if !is_switchable(&path) {
             let found = format!("a stage cannot set `{path}`");
             let problem = Problem::rule(found, "a path that begins with contacts, background or gravity");
-            failure = Some(if first == "time" {
+            failure = Some(if first_part(&path) == "time" {
                 table.refuse_with_help(key, problem, "time steps are set in [stages.time]")
             } else {
                 table.refuse(key, problem)

@@ -10,6 +10,7 @@ use super::observers::{check_discards, durations, read_observers};
 use super::output::read_output;
 use super::particles::{ParticleGroup, PlacedGroup, read_particles};
 use super::placement::check_placement;
+use super::programs::{ProgramState, Programs};
 use super::stages::{PlannedStage, Stage, read_stages};
 use super::start::read_start;
 use super::switches::switched;
@@ -209,6 +210,26 @@ impl Given<'_> {
     }
 }
 
+/// What stages can switch, as it stands in a document whose rest has been checked in the first walk.
+fn read_changing(
+    document: &Document,
+    scenario: &Scenario,
+    used: &MaterialUse,
+    help: &str,
+) -> Result<Changing, InputErrors> {
+    let groups: Vec<&ParticleGroup> = scenario.particles.iter().collect();
+    let given = Given { groups: &groups, temperature: scenario.temperature.as_ref() };
+    let read = document.read(|mut root| {
+        let changing = Changing::read(&mut root, &scenario.materials, Some(used), Some(given));
+        for key in root.keys() {
+            root.value(key);
+        }
+        root.finish();
+        changing
+    });
+    read.map_err(|errors| errors.with_help(help))
+}
+
 /// The stages with everything that holds in them.
 fn resolve(
     document: &Document,
@@ -228,31 +249,34 @@ fn resolve(
             controls,
             cell,
             switches,
+            programs,
             time,
             place: stage_place,
         } = stage;
         let changing = if switches.is_empty() {
             let before = stages.last();
             Changing {
-                contacts: before.map_or(&scenario.contacts, |stage| &stage.contacts).clone(),
-                background: before.map_or(scenario.background, |stage| stage.background),
+                contacts: before.map_or(&scenario.contacts[..], |stage| stage.last_contacts()).to_vec(),
+                background: before.map_or(scenario.background, |stage| stage.last_background()),
             }
         } else {
             document = switched(&document, &switches)?;
-            let groups: Vec<&ParticleGroup> = scenario.particles.iter().collect();
-            let given = Given { groups: &groups, temperature: scenario.temperature.as_ref() };
-            let read = document.read(|mut root| {
-                let changing = Changing::read(&mut root, &scenario.materials, Some(used), Some(given));
-                // The rest of the file has been checked in the first walk.
-                for key in root.keys() {
-                    root.value(key);
+            let help = format!("this is what [stages.set] of stage \"{name}\" leads to");
+            read_changing(&document, scenario, used, &help)?
+        };
+        let (changing, programs) = match programs {
+            None => (changing, None),
+            Some(programs) => {
+                let help = format!("this is what [stages.programs] of stage \"{name}\" leads to");
+                let mut states = Vec::new();
+                for settings in std::iter::once(programs.starts.clone()).chain(programs.settings()) {
+                    document = switched(&document, &settings)?;
+                    let Changing { contacts, background } = read_changing(&document, scenario, used, &help)?;
+                    states.push(ProgramState { contacts, background });
                 }
-                root.finish();
-                changing
-            });
-            read.map_err(|errors| {
-                errors.with_help(&format!("this is what [stages.set] of stage \"{name}\" leads to"))
-            })?
+                let ProgramState { contacts, background } = states[0].clone();
+                (Changing { contacts, background }, Some(Programs { keys: programs.keys, states }))
+            }
         };
         let Changing { contacts, background } = changing;
         if let Some(place) = &form_bonds
@@ -270,7 +294,18 @@ fn resolve(
             return Err(document.error_at(place, Problem::rule(found, "no gravity in this stage")).into());
         }
         let cell = cell.map(|(motion, _)| motion);
-        stages.push(Stage { name, until, remove, form_bonds, controls, cell, contacts, background, time });
+        stages.push(Stage {
+            name,
+            until,
+            remove,
+            form_bonds,
+            controls,
+            cell,
+            contacts,
+            background,
+            time,
+            programs,
+        });
     }
     Ok(stages)
 }

@@ -59,7 +59,7 @@ pub(super) fn overdamped(scenario: &Scenario, particles: &[Particle]) -> Vec<Ove
     let mut seen: Vec<&Contact> = Vec::new();
     let mut found = Vec::new();
     for stage in &scenario.stages {
-        for contact in &stage.contacts {
+        for contact in stage.all_contacts() {
             if seen.iter().any(|known| known.materials == contact.materials && known.model == contact.model) {
                 continue;
             }

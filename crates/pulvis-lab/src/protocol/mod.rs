@@ -27,6 +27,7 @@ mod outlines;
 mod pace;
 mod packed;
 mod particles;
+mod programs;
 mod refusal;
 mod regime;
 mod report;

@@ -7,6 +7,7 @@ use super::checkpoint::WatchRecord;
 use super::error::RunError;
 use super::explain::likely_cause;
 use super::measure::Measure;
+use super::programs::update;
 use super::run::{StageResult, sensible_threads};
 use super::setup::{Prepared, StagePlan, prepare};
 use super::stage::{Ending, StageWatch};
@@ -20,6 +21,8 @@ pub struct Session {
     scenario: Scenario,
     simulation: Simulation,
     interactions: Interactions,
+    /// The update of the present stage's programs that holds.
+    update: usize,
     plans: Vec<StagePlan>,
     walls_arrive: bool,
     measure: Measure,
@@ -56,6 +59,7 @@ impl Session {
         let mut session = Self {
             measure: Measure::new(&scenario, &simulation),
             interactions: origin.interactions,
+            update: 0,
             walls_arrive: origin.stage_ended,
             plans,
             results: Vec::new(),
@@ -107,6 +111,7 @@ impl Session {
             let (plan, stage) = (&self.plans[number], &self.scenario.stages[number]);
             switch(&mut self.simulation, &mut self.interactions, plan, stage, self.walls_arrive)?;
             self.walls_arrive = true;
+            self.update = 0;
         }
         let stage = &self.scenario.stages[number];
         let mut rules = match &self.watch {
@@ -119,6 +124,9 @@ impl Session {
             let steps = rules.steps_left(&self.simulation).clamp(1, left);
             self.simulation.advance(steps).map_err(|source| self.stopped(source))?;
             (left, *taken) = (left - steps, *taken + steps);
+            let programs = (stage, &self.plans[number].programs[..]);
+            let (models, present) = (&mut self.interactions, &mut self.update);
+            update(&mut self.simulation, models, present, programs, rules.start_time())?;
             let ending = rules.ending(&self.simulation);
             if ending.is_some() || left == 0 {
                 break ending;

@@ -17,6 +17,7 @@ use super::error::PrepareError;
 use super::feasible::check_feasible;
 use super::memory::refuse_too_many;
 use super::particles::{columns, generate};
+use super::programs::program_plans;
 use super::refusal::refuse_setup;
 use super::start::branch;
 
@@ -59,6 +60,8 @@ pub struct StagePlan {
     pub walls_present: Vec<bool>,
     /// What the stage changes of walls: place and control.
     pub wall_changes: Vec<(usize, WallControl)>,
+    /// What holds after each update of its programs, that of the start first; nothing where there are none.
+    pub programs: Vec<(Interactions, Background)>,
 }
 
 /// Builds the simulation of a scenario and checks what only its particles can tell.
@@ -120,8 +123,13 @@ pub(super) fn stages(
             walls[*place].motion = control.motion().unwrap_or_default();
         }
         let interactions = interactions(scenario, &stage.contacts);
+        let programs = program_plans(scenario, stage);
         // Faces count as they were drawn: where walls move apart, the bound on contacts has room for more.
-        let shortest = shortest_motion(particles, &interactions, &walls, &stage.background);
+        let start = std::iter::once((&interactions, &stage.background));
+        let states = start.chain(programs.iter().skip(1).map(|(models, background)| (models, background)));
+        let shortest = states
+            .filter_map(|(models, background)| shortest_motion(particles, models, &walls, background))
+            .min_by(|one, other| one.duration.total_cmp(&other.duration));
         let time_step = time_step(scenario, stage.time, shortest, number)?;
         plans.push(StagePlan {
             interactions,
@@ -130,6 +138,7 @@ pub(super) fn stages(
             shortest,
             walls_present: walls.iter().map(|wall| wall.present).collect(),
             wall_changes,
+            programs,
         });
     }
     Ok(plans)

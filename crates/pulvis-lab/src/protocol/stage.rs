@@ -1,10 +1,11 @@
 //! When a stage ends.
 
 use pulvis_core::{CellControl, Simulation, UpperTriangular};
-use pulvis_input::scenario::{Crossing, Scenario, Stage, StopRules, WallMotion};
+use pulvis_input::scenario::{Crossing, Programs, Scenario, Stage, StopRules, WallMotion};
 
 use super::cell::time_to_strain;
 use super::checkpoint::WatchRecord;
+use super::programs::elapsed;
 use super::setup::{box_walls, extent};
 use pulvis_core::walls::Extent;
 
@@ -67,6 +68,7 @@ impl Ending {
 pub(super) struct StageWatch<'a> {
     scenario: &'a Scenario,
     rules: &'a StopRules,
+    programs: Option<&'a Programs>,
     start_step: u64,
     start_time: f64,
     /// Extent along each axis at the start of the stage [m].
@@ -82,6 +84,7 @@ impl<'a> StageWatch<'a> {
         Self {
             scenario,
             rules: &stage.until,
+            programs: stage.programs.as_ref(),
             start_step: simulation.steps(),
             start_time: simulation.time(),
             start_lengths: [0, 1, 2].map(|axis| length(scenario, simulation, axis)),
@@ -95,8 +98,18 @@ impl<'a> StageWatch<'a> {
     pub(super) fn resume(scenario: &'a Scenario, stage: &'a Stage, record: &WatchRecord) -> Self {
         let &WatchRecord { start_step, start_time, start_lengths, start_strain, calm_looks, last_stress } =
             record;
-        let rules = &stage.until;
-        Self { scenario, rules, start_step, start_time, start_lengths, start_strain, calm_looks, last_stress }
+        let (rules, programs) = (&stage.until, stage.programs.as_ref());
+        Self {
+            scenario,
+            rules,
+            programs,
+            start_step,
+            start_time,
+            start_lengths,
+            start_strain,
+            calm_looks,
+            last_stress,
+        }
     }
 
     /// What the rules have seen so far.
@@ -104,6 +117,7 @@ impl<'a> StageWatch<'a> {
         let &Self {
             scenario: _,
             rules: _,
+            programs: _,
             start_step,
             start_time,
             start_lengths,
@@ -127,6 +141,11 @@ impl<'a> StageWatch<'a> {
         Some(((simulation.time() - self.start_time) / duration).min(1.0))
     }
 
+    /// When the stage began [s].
+    pub(super) fn start_time(&self) -> f64 {
+        self.start_time
+    }
+
     /// Steps before which the stage certainly does not end, and no look is due.
     pub(super) fn steps_left(&self, simulation: &Simulation) -> u64 {
         if self.rules.strain.is_some() || self.rules.shear_strain.is_some() {
@@ -134,7 +153,12 @@ impl<'a> StageWatch<'a> {
         }
         let look = LOOK_EVERY - (simulation.steps() - self.start_step) % LOOK_EVERY;
         let end = self.rules.time.or_else(|| cycles_duration(simulation));
-        end.map_or(look, |end| look.min(whole_steps(self.start_time + end, simulation)))
+        let update = self.programs.and_then(|programs| {
+            let next = programs.due(elapsed(simulation, self.start_time)) + 1;
+            (next <= programs.updates()).then(|| programs.time_of(next))
+        });
+        let instants = end.into_iter().chain(update);
+        instants.fold(look, |look, instant| look.min(whole_steps(self.start_time + instant, simulation)))
     }
 
     /// Whether the stage ends now.

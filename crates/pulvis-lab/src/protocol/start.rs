@@ -1,7 +1,7 @@
 //! Simulations that start from a checkpoint: of the same run, or of another one.
 
 use pulvis_core::walls::Wall;
-use pulvis_core::{Domain, Interactions, Particle, Simulation, State};
+use pulvis_core::{Domain, Particle, Simulation, State};
 use pulvis_input::scenario::{Scenario, Stage, StartFrom, WallControl};
 use pulvis_input::{Document, InputErrors, Problem, Replacement};
 use pulvis_io::vtk::Frame;
@@ -15,6 +15,7 @@ use super::error::PrepareError;
 use super::feasible::{check_feasible, start_stage};
 use super::frame::frame_of;
 use super::particles::generate;
+use super::programs::{models_after, program_plans};
 use super::run::StageResult;
 use super::setup::{Origin, Prepared, StagePlan, drawn_walls, interactions, stages};
 use super::stage::Ending;
@@ -51,7 +52,7 @@ pub(super) fn resumed(scenario: &Scenario, found: Found) -> Result<Resumed, Prep
     });
     let results =
         results.collect::<Option<_>>().ok_or_else(|| misfit("it knows another end of a stage".to_owned()))?;
-    let models = plans[stage].interactions.clone();
+    let models = models_after(scenario, &scenario.stages[stage], record.update as usize);
     let mut simulation =
         Simulation::import_state(models, walls, &state).map_err(|error| misfit(error.to_string()))?;
     simulation.set_limits(limits(scenario));
@@ -69,6 +70,7 @@ fn resumed_plans(scenario: &Scenario, time_steps: &[f64], mut walls: Vec<Wall>) 
             shortest: None,
             walls_present: walls.iter().map(|wall| wall.present).collect(),
             wall_changes: stage.controls.clone(),
+            programs: program_plans(scenario, stage),
         }
     };
     scenario.stages.iter().zip(time_steps).map(plan).collect()
@@ -104,7 +106,7 @@ pub(crate) fn frame_of_checkpoint(file: &Path) -> Result<(Scenario, f64, Frame),
     let checkpoint = found.checkpoint;
     let (scenario, stage) = parent(&checkpoint)?;
     let walls = walls_in_stage(&scenario, &checkpoint.ancestors, &scenario.stages[..=stage])?;
-    let models = interactions(&scenario, &scenario.stages[stage].contacts);
+    let models = models_after(&scenario, &scenario.stages[stage], checkpoint.run.update as usize);
     let misfit = |problem: String| PrepareError::Misfit { file: file.to_owned(), problem };
     let state: State = checkpoint.into_state().map_err(|problem| misfit(problem.to_owned()))?;
     let simulation =
@@ -205,7 +207,7 @@ pub(super) fn branch(scenario: &Scenario, start: &StartFrom) -> Result<Prepared,
     let stage_ended = checkpoint.run.watch.is_none();
     let walls = walls_in_stage(scenario, &ancestors, &parent.stages[..=stage])?;
     ancestors.push(Ancestor { scenario: checkpoint.scenario.clone(), stage: stage as u32, stage_ended });
-    let models: Interactions = interactions(&parent, &parent.stages[stage].contacts);
+    let models = models_after(&parent, &parent.stages[stage], checkpoint.run.update as usize);
     let unfit = |problem: String| {
         refused(Problem::rule(problem, "a checkpoint of the same system"), "name another checkpoint")
     };

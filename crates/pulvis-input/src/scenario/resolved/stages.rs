@@ -4,6 +4,7 @@ use super::writer::{Writer, key, quantity, text};
 use super::{gravity, key_of_law, law_keys, write_time};
 use crate::scenario::cell::write_cell;
 use crate::scenario::controls::write_control;
+use crate::scenario::programs::write_programs;
 use crate::scenario::region::write_region;
 use crate::scenario::until::write_until;
 use crate::scenario::{Background, Contact, Scenario, Stage, TimeStep};
@@ -24,6 +25,9 @@ impl Scenario {
             writer.key("name", text(&stage.name));
             if stage.form_bonds {
                 writer.key("form_bonds", true.to_string());
+            }
+            if let Some(programs) = &stage.programs {
+                writer.key("program_updates", programs.updates().to_string());
             }
             writer.table("stages.until");
             write_until(writer, &stage.until);
@@ -47,12 +51,18 @@ impl Scenario {
             for (path, value) in switches {
                 writer.key(&text(&path), value);
             }
+            if let Some(programs) = &stage.programs {
+                write_programs(writer, programs);
+            }
             if stage.time != before.time {
                 writer.table("stages.time");
                 write_time(writer, stage.time);
             }
-            let Stage { contacts, background, time, .. } = stage;
-            before = Before { contacts, background: *background, time: *time };
+            before = Before {
+                contacts: stage.last_contacts(),
+                background: stage.last_background(),
+                time: stage.time,
+            };
         }
     }
 

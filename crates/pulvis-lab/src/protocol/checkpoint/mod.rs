@@ -71,6 +71,8 @@ pub(super) struct RunRecord {
     pub(super) results: Vec<ResultRecord>,
     /// The stage that goes on, unless the last one that has begun has ended.
     pub(super) watch: Option<WatchRecord>,
+    /// The update of the programs of that stage that holds.
+    pub(super) update: u32,
     /// Whether all is done and drawn.
     pub(super) complete: bool,
     /// The time steps of all stages [s].

@@ -13,6 +13,7 @@ use crate::protocol::folder::{LIST, OutputFolder};
 use crate::protocol::kept_rows::KeptRows;
 use crate::protocol::measure::Measure;
 use crate::protocol::pace::Due;
+use crate::protocol::programs::models_after;
 use crate::protocol::run::{PictureOptions, StageResult, drop_later};
 use crate::protocol::snapshots::Snapshots;
 use crate::protocol::stage::StageWatch;
@@ -29,7 +30,8 @@ impl<'a> Run<'a> {
     ) -> Result<Self, RunError> {
         let file = found.path.clone();
         let Resumed { simulation, plans, ancestors, record, results } = resumed(scenario, found)?;
-        let interactions = plans[record.stage()].interactions.clone();
+        let update = record.update as usize;
+        let interactions = models_after(scenario, &scenario.stages[record.stage()], update);
         output.check_list(&record.files)?;
         let mut measure = Measure::new(scenario, &simulation);
         measure.resume(record.reference);
@@ -51,6 +53,7 @@ impl<'a> Run<'a> {
             resolved,
             ancestors,
             interactions,
+            update,
             plans,
             results,
             watch,
@@ -110,6 +113,7 @@ impl<'a> Run<'a> {
             ancestors: _,
             simulation: _,
             interactions: _,
+            update,
             plans,
             results,
             watch: _,
@@ -132,6 +136,7 @@ impl<'a> Run<'a> {
         Ok(RunRecord {
             results: results.iter().map(StageResult::record).collect(),
             watch: rules.map(StageWatch::record),
+            update: *update as u32,
             complete: false,
             time_steps: plans.iter().map(|plan| plan.time_step).collect(),
             rows_due: rows_due.count(),

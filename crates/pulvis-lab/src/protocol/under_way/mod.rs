@@ -20,6 +20,7 @@ use super::kept_rows::KeptRows;
 use super::measure::Measure;
 use super::observers::{histogram, histogram_file};
 use super::pace::{Due, PACE, Pace};
+use super::programs::update;
 use super::report::{self, Series};
 use super::run::{PictureOptions, Progress, RunOptions, RunSummary, StageResult, Watch, set_machine};
 use super::setup::{Prepared, StagePlan};
@@ -42,6 +43,8 @@ pub(super) struct Run<'a> {
     simulation: Simulation,
     /// The contact models that the simulation has now.
     interactions: Interactions,
+    /// The update of the present stage's programs that holds.
+    update: usize,
     plans: Vec<StagePlan>,
     /// The stages that have ended.
     results: Vec<StageResult>,
@@ -88,6 +91,7 @@ impl<'a> Run<'a> {
             resolved,
             ancestors: origin.ancestors,
             interactions: origin.interactions,
+            update: 0,
             walls_arrive: origin.stage_ended,
             plans,
             results: Vec::new(),
@@ -174,6 +178,9 @@ impl<'a> Run<'a> {
         let ending = loop {
             let steps = self.steps_to_next_look(&rules);
             self.simulation.advance(steps).map_err(|source| self.stopped(number, source))?;
+            let programs = (stage, &self.plans[number].programs[..]);
+            let (models, present) = (&mut self.interactions, &mut self.update);
+            update(&mut self.simulation, models, present, programs, rules.start_time())?;
             if self.rows_due.now(&self.simulation) {
                 self.row(number, &rules)?;
             }
@@ -223,6 +230,7 @@ impl<'a> Run<'a> {
         let (plan, stage) = (&self.plans[number], &self.scenario.stages[number]);
         switch(&mut self.simulation, &mut self.interactions, plan, stage, self.walls_arrive)?;
         self.walls_arrive = true;
+        self.update = 0;
         Ok(())
     }
 
