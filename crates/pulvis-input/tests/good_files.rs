@@ -335,7 +335,7 @@ fn walls_with_edges_and_meshes_read_back_with_what_they_were_made_of() {
     assert_eq!(floor.shape, PlaneWithHole { normal: up, radius: 2e-3 }.into());
     assert_eq!(
         (&piston.shape, piston.area),
-        (&Disk { normal: -up, radius: 0.01 }.into(), Some(1e-4 * std::f64::consts::PI))
+        (&Disk { normal: -up, radius: 0.01 }.into(), Some(std::f64::consts::PI * 0.01 * 0.01))
     );
     let WallShape::Mesh(mesh) = &paddle.shape else { panic!("a mesh") };
     // Two triangles, one flat part, four edges, four corners.

@@ -17,6 +17,7 @@
 
 mod build;
 mod tree;
+mod weld;
 
 use std::sync::Arc;
 
