@@ -19,5 +19,8 @@ pub use deformation::UpperTriangular;
 pub use domain::{Domain, Images};
 pub use motion::{CellContent, CellControl, CellMotion, WallMotion};
 pub use region::Region;
-pub use shape::{Cylinder, CylinderSide, Plane, Shape, Surface, WallShape};
+pub use shape::{
+    Cone, Cylinder, CylinderSide, Disk, EdgedShape, Edgeless, EdgelessShape, FeatureSurface, InvalidMesh,
+    MOST_HOLLOW, Mesh, Plane, PlaneWithHole, Shape, Surface, TriangleMesh, Tube, WallShape,
+};
 pub use temperature::{InvalidProgram, TemperatureProgram};

@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 
 use crate::contacts::Interactions;
 use crate::particles::{MaterialIndex, Particle};
-use crate::walls::{Shape, Wall};
+use crate::walls::Wall;
 use pulvis_boundary::Background;
 use pulvis_contact::Partner;
 
@@ -194,8 +194,8 @@ pub fn shortest_contact(
             let partner = wall.material;
             let Some(model) = interactions.get(material, partner) else { continue };
             // Where a wall is most hollow, the effective radius is largest and Hertzian contacts are stiffest.
-            let surface = Partner::Wall { mean_curvature: wall.shape.least_mean_curvature() };
             for &body in bodies {
+                let surface = Partner::Wall { mean_curvature: wall.shape.least_mean_curvature_for(body.1) };
                 let duration = model.shortest_contact_time(body, surface);
                 consider(ShortestContact { duration, material, partner, at_wall: true });
             }

@@ -63,6 +63,7 @@ fn mapped(
         wall.shape = match wall.shape {
             WallShape::Plane(Plane { normal }) => Plane { normal: polar(normal) }.into(),
             WallShape::Cylinder(cylinder) => Cylinder { axis: axial(cylinder.axis), ..cylinder }.into(),
+            _ => panic!("the systems of this file have planes and cylinders"),
         };
     }
     setup.background.gravity = polar(setup.background.gravity);

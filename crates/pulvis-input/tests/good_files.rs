@@ -140,7 +140,7 @@ fn cylinders_have_an_axis_a_radius_and_a_side_and_can_rotate() {
     let scenario = good("drum.toml");
     let cylinder = |number: usize| match scenario.walls[number].shape {
         WallShape::Cylinder(cylinder) => cylinder,
-        WallShape::Plane(_) => panic!("a cylinder"),
+        _ => panic!("a cylinder"),
     };
     let axis = pulvis_math::Vector3::new(0.0, 1.0, 0.0);
     assert_eq!(cylinder(0), Cylinder { axis, radius: 0.02, side: CylinderSide::Inside });
@@ -323,4 +323,35 @@ fn a_cell_deforms_as_its_stages_say_and_goes_on_where_they_say_nothing() {
     assert_eq!(scenario.stages[2].until.shear_strain, Some(ShearRule { component: 3, value: 1.5 }));
     assert_eq!(scenario.stages[3].cell, None);
     assert_eq!(scenario.stages[4].cell, Some(CellMotion::default()));
+}
+
+#[test]
+fn walls_with_edges_and_meshes_read_back_with_what_they_were_made_of() {
+    let scenario = good("hopper_of_parts.toml");
+    let [silo, funnel, floor, piston, paddle] = &scenario.walls[..] else { panic!("five walls") };
+    let up = pulvis_math::Vector3::new(0.0, 0.0, 1.0);
+    assert_eq!(silo.shape, Tube { axis: up, radius: 0.01, length: 0.03 }.into());
+    assert_eq!(funnel.shape, Cone { axis: up, radii: [0.0, 0.01], height: 0.01 }.into());
+    assert_eq!(floor.shape, PlaneWithHole { normal: up, radius: 2e-3 }.into());
+    assert_eq!(
+        (&piston.shape, piston.area),
+        (&Disk { normal: -up, radius: 0.01 }.into(), Some(std::f64::consts::PI * 0.01 * 0.01))
+    );
+    let WallShape::Mesh(mesh) = &paddle.shape else { panic!("a mesh") };
+    // Two triangles, one flat part, four edges, four corners.
+    assert_eq!((mesh.surface.counts(), mesh.axis), ([2, 1, 4, 4], up));
+    // Turned by 90° about z and lifted: the blade from x = −4 to 4 mm reaches from y = −4 to 4 mm.
+    let (low, high) = mesh.surface.bounds();
+    for (found, expected) in low.into_iter().chain(high).zip([0.0, -4e-3, 13e-3, 0.0, 4e-3, 17e-3]) {
+        assert!((found - expected).abs() < 1e-17, "{low:?} {high:?}");
+    }
+    assert!((paddle.distance([3e-3, 1e-3, 15e-3].into()) - 3e-3).abs() < 1e-17);
+    let source = paddle.mesh.as_ref().unwrap();
+    assert_eq!((source.scale, source.hash.len()), (1e-3, 16));
+    // The copy of the scenario in the folder of a run is refused where the file has changed.
+    let resolved = scenario.to_resolved_toml("test");
+    assert!(resolved.contains(&format!("file_hash = \"{}\"", source.hash)), "{resolved}");
+    let other = resolved.replace(&source.hash, "0123456789abcdef");
+    let refused = Scenario::from_str("run.toml", &other).unwrap_err().to_string();
+    assert!(refused.contains("paddle.obj has changed: its hash is"), "{refused}");
 }

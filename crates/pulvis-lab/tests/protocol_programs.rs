@@ -107,6 +107,6 @@ fn a_component_of_gravity_may_be_led() {
         session.advance(1, false).unwrap();
     }
     // g(t) = 2 m/s² t/10 ms: v = ∫ g dt = 10 mm/s; 400 updates lag by half of one, 1/400.
-    let velocity = session.simulation().particles().velocities().get(0).x;
+    let velocity = session.simulation().particles().velocities()[0].x;
     assert!((velocity / 0.01 - 1.0).abs() < 4e-3, "{velocity}");
 }

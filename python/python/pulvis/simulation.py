@@ -49,7 +49,7 @@ class StageEnd:
 
 @dataclass(frozen=True)
 class Wall:
-    """A wall as it is now; of a cylinder, `normal` is ``None``."""
+    """A wall as it is now; of a wall that is no plane, `normal` is ``None``."""
 
     name: str
     present: bool

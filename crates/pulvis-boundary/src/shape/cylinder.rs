@@ -2,7 +2,7 @@
 
 use pulvis_math::{Real, Vector3};
 
-use super::{Shape, Surface, UNIT, is_unit};
+use super::{EdgelessShape, Shape, Surface, UNIT, check_axis, check_length};
 
 /// On which side of a cylinder's surface particles are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,7 +51,7 @@ pub struct Cylinder {
     pub side: CylinderSide,
 }
 
-impl Shape for Cylinder {
+impl EdgelessShape for Cylinder {
     #[inline(always)]
     fn surface<R: Real>(&self, point: Vector3, centre: Vector3<R>) -> Surface<R> {
         let sign = R::splat(self.side.sign());
@@ -68,15 +68,17 @@ impl Shape for Cylinder {
         }
     }
 
-    fn least_mean_curvature(&self) -> f64 {
-        self.side.sign() * (0.5 / self.radius)
-    }
-
     #[inline(always)]
     fn normal_rate<R: Real>(&self, surface: &Surface<R>, velocity: Vector3<R>) -> Option<Vector3<R>> {
         // Only what goes around the axis turns the normal.
         let around = Vector3::<R>::splat(self.axis).cross(surface.normal);
         Some(around * (around.dot(velocity) * surface.turning))
+    }
+}
+
+impl Shape for Cylinder {
+    fn least_mean_curvature(&self) -> f64 {
+        self.side.sign() * (0.5 / self.radius)
     }
 
     fn approach(&self, displacement: Vector3) -> f64 {
@@ -96,13 +98,9 @@ impl Shape for Cylinder {
     }
 
     fn check(&self, largest_radius: f64) -> Result<(), String> {
-        let Self { axis: Vector3 { x, y, z }, radius, side } = *self;
-        if !is_unit(self.axis) {
-            return Err(format!("its axis ({x}, {y}, {z}) is not of length 1"));
-        }
-        if !(radius > 0.0 && radius.is_finite()) {
-            return Err(format!("its radius is {radius} m, not a length greater than zero"));
-        }
+        let Self { axis, radius, side } = *self;
+        check_axis(axis)?;
+        check_length("radius", radius)?;
         if side == CylinderSide::Inside && radius <= largest_radius {
             return Err(format!("a particle of {largest_radius} m radius has no room inside {radius} m"));
         }

@@ -2,7 +2,7 @@
 
 use pulvis_math::{Real, Vector3};
 
-use super::{Shape, Surface, UNIT, is_unit};
+use super::{EdgelessShape, Shape, Surface, UNIT, is_unit};
 
 /// A plane through the wall's reference point, without end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,7 +11,7 @@ pub struct Plane {
     pub normal: Vector3,
 }
 
-impl Shape for Plane {
+impl EdgelessShape for Plane {
     #[inline(always)]
     fn surface<R: Real>(&self, point: Vector3, centre: Vector3<R>) -> Surface<R> {
         let normal = Vector3::<R>::splat(self.normal);
@@ -23,13 +23,15 @@ impl Shape for Plane {
         }
     }
 
-    fn least_mean_curvature(&self) -> f64 {
-        0.0
-    }
-
     #[inline(always)]
     fn normal_rate<R: Real>(&self, _surface: &Surface<R>, _velocity: Vector3<R>) -> Option<Vector3<R>> {
         None
+    }
+}
+
+impl Shape for Plane {
+    fn least_mean_curvature(&self) -> f64 {
+        0.0
     }
 
     fn approach(&self, displacement: Vector3) -> f64 {
@@ -38,6 +40,10 @@ impl Shape for Plane {
 
     fn axis(&self) -> Option<Vector3> {
         None
+    }
+
+    fn direction_of_push(&self) -> Option<Vector3> {
+        Some(self.normal)
     }
 
     fn is_invariant_along(&self, direction: Vector3) -> bool {

@@ -8,12 +8,12 @@ const AXIS: Vector3 = Vector3 { x: 2.0 / 7.0, y: -3.0 / 7.0, z: 6.0 / 7.0 };
 const POINT: Vector3 = Vector3 { x: 0.3, y: -1.2, z: 0.7 };
 const RADIUS: f64 = 1.7;
 
-fn cylinder(side: CylinderSide) -> WallShape {
-    Cylinder { axis: AXIS, radius: RADIUS, side }.into()
+fn cylinder(side: CylinderSide) -> Edgeless {
+    Edgeless::Cylinder(Cylinder { axis: AXIS, radius: RADIUS, side })
 }
 
 /// Two unit vectors across the axis.
-fn across() -> [Vector3; 2] {
+fn two_across() -> [Vector3; 2] {
     let one = Vector3::new(1.0, 0.0, 0.0).tangential_to(AXIS);
     let one = one * (1.0 / one.norm());
     [one, AXIS.cross(one)]
@@ -22,7 +22,7 @@ fn across() -> [Vector3; 2] {
 /// The point of a grid on the cylinder's surface that is nearest to `centre`, by search alone: three rounds, each
 /// around the best point of the one before.
 fn nearest(centre: Vector3) -> Vector3 {
-    let [one, other] = across();
+    let [one, other] = two_across();
     let (mut best, mut angle, mut height) = (POINT, 0.0, 0.0);
     let mut span = [std::f64::consts::PI, 8.0];
     for _ in 0..6 {
@@ -44,7 +44,7 @@ fn nearest(centre: Vector3) -> Vector3 {
 }
 
 fn centres() -> [Vector3; 8] {
-    let [one, other] = across();
+    let [one, other] = two_across();
     std::array::from_fn(|number| {
         let number = number as f64;
         let (angle, height) = (0.8 * number, 0.9 * number - 3.0);
@@ -73,8 +73,11 @@ fn the_surface_of_a_cylinder_is_where_a_search_finds_it() {
 #[test]
 fn eight_spheres_at_a_time_see_the_surface_that_each_sees_alone() {
     type Eight = F64Array<8>;
-    let shapes =
-        [Plane { normal: AXIS }.into(), cylinder(CylinderSide::Inside), cylinder(CylinderSide::Outside)];
+    let shapes = [
+        Edgeless::Plane(Plane { normal: AXIS }),
+        cylinder(CylinderSide::Inside),
+        cylinder(CylinderSide::Outside),
+    ];
     let centres = centres();
     let component = |of: fn(&Vector3) -> f64| Eight::from_fn(|lane| of(&centres[lane]));
     let together = Vector3::new(component(|v| v.x), component(|v| v.y), component(|v| v.z));
@@ -89,7 +92,11 @@ fn eight_spheres_at_a_time_see_the_surface_that_each_sees_alone() {
             let rate = shape.normal_rate(&alone, Vector3::new(0.3, 0.2, -0.9));
             assert_eq!(rates.map(|rates| rates.lane(lane)), rate);
             // Planes and cylinders are curved alike everywhere.
-            assert_eq!(alone.mean_curvature, shape.least_mean_curvature());
+            let least = match shape {
+                Edgeless::Plane(plane) => plane.least_mean_curvature(),
+                Edgeless::Cylinder(cylinder) => cylinder.least_mean_curvature(),
+            };
+            assert_eq!(alone.mean_curvature, least);
         }
     }
 }
@@ -123,9 +130,9 @@ fn a_sphere_on_the_axis_sees_a_wall_far_away_and_no_nan() {
 
 #[test]
 fn a_cylinder_that_moves_along_its_axis_comes_no_nearer() {
-    let shape = cylinder(CylinderSide::Outside);
+    let shape = Cylinder { axis: AXIS, radius: RADIUS, side: CylinderSide::Outside };
     assert!(shape.approach(AXIS * 3.0) < 1e-15);
-    let [one, _] = across();
+    let [one, _] = two_across();
     assert!((shape.approach(AXIS * 3.0 + one * 0.25) - 0.25).abs() < 1e-15);
     assert!((WallShape::from(Plane { normal: AXIS }).approach(AXIS * -0.5) - 0.5).abs() < 1e-15);
 }
@@ -148,3 +155,6 @@ fn shapes_that_cannot_be_are_refused_in_words() {
         "its normal (0, 0, 0) is not of length 1"
     );
 }
+
+mod edged;
+mod mesh;

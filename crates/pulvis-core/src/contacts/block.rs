@@ -268,6 +268,11 @@ impl ContactGroup {
         WallFeature::from_number(self.second_row(block, 0)).wall()
     }
 
+    /// The features that the contacts of a block of walls are with.
+    pub(crate) fn wall_features(&self, block: usize) -> [WallFeature; WIDTH] {
+        std::array::from_fn(|lane| WallFeature::from_number(self.second_row(block, lane)))
+    }
+
     /// How many contacts the block holds.
     #[inline(always)]
     pub(crate) fn occupancy(&self, block: usize) -> usize {

@@ -1,5 +1,6 @@
 //! The contact model of each pair of materials.
 
+use pulvis_boundary::MOST_HOLLOW;
 use pulvis_contact::{ContactModel, Pair, Sizes};
 use pulvis_math::max_or_nan;
 
@@ -142,7 +143,10 @@ impl Interactions {
 fn longest_range(model: &ContactModel, [one, other]: [Option<f64>; 2], curvature: f64) -> f64 {
     let between = one.zip(other).map(|(one, other)| (Pair::spheres(1.0, 1.0, one, other), [one, other]));
     let at_walls = [one, other].into_iter().flatten();
-    let at_walls = at_walls.map(|radius| (Pair::from_sums(1.0, 1.0 / radius + curvature), [radius, 0.0]));
+    let at_walls = at_walls.map(|radius| {
+        let curvature = curvature.max(-MOST_HOLLOW / radius);
+        (Pair::from_sums(1.0, 1.0 / radius + curvature), [radius, 0.0])
+    });
     at_walls.chain(between).map(|(pair, radii)| model.interaction_range(&pair, radii)).fold(0.0, max_or_nan)
 }
 

@@ -11,7 +11,7 @@ use super::table::Surroundings;
 use crate::counting_sort::counting_sort;
 use crate::neighbours::{CellGrid, RowRangePair};
 use crate::phases::Phases;
-use crate::walls::{WallFeature, WallForce};
+use crate::walls::{Turned, WallFeature, WallForce};
 
 /// Pairs are sorted into classes by their gap over the thickest skin; these are the upper bounds of all classes but the
 /// last. Blocks are then full of contacts that touch, and blocks of pairs that are far apart can be skipped until the
@@ -34,6 +34,8 @@ pub(super) struct Listing {
     /// The rows of later chunks that the chunk has contacts with.
     halo: RowSet,
     candidates: Vec<Candidate>,
+    /// The features of a wall near a particle, with their distances [m].
+    features: Vec<(u32, f64)>,
 }
 
 /// The inputs of a listing.
@@ -161,6 +163,7 @@ impl Listing {
         let candidates = &mut self.candidates;
         let mut groups: Vec<Option<(ContactGroup, LayoutNumber)>> = vec![None; interactions.groups()];
         for (wall_number, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.present) {
+            let turned = Turned::of(wall);
             for &material in around.materials {
                 let Some(&model) = interactions.get(material, wall.material) else { continue };
                 let range = interactions.range(interactions.group(material, wall.material));
@@ -172,21 +175,38 @@ impl Listing {
                         (group, number)
                     });
                 group.wall_forces.resize(walls.len(), WallForce::default());
-                let feature = WallFeature::new(wall_number, 0);
                 candidates.clear();
                 for row in chunk.rows.clone().filter(|&row| particles.material[row] == material) {
                     let Packed4 { vector, scalar } = particles.position[row];
-                    let gap = wall.distance(vector) - scalar - range;
-                    if gap < skin.of_walls() + (skin.positions()[row].scalar - scalar) {
-                        let sum = (row - chunk.rows.start) as u32;
+                    let farthest = skin.of_walls() + (skin.positions()[row].scalar - scalar);
+                    let mut add = |feature: u32, gap: f64| {
+                        let feature = WallFeature::new(wall_number, feature);
+                        let sums = [(row - chunk.rows.start) as u32, 0];
                         let rows = [row as u32, feature.number()];
-                        candidates.push(Candidate { rows, sums: [sum, 0], gap, crosses_boundary: false });
+                        candidates.push(Candidate { rows, sums, gap, crosses_boundary: false });
+                    };
+                    match wall.shape.edged() {
+                        None => {
+                            let gap = wall.distance(vector) - scalar - range;
+                            if gap < farthest {
+                                add(0, gap);
+                            }
+                        }
+                        Some(shape) => {
+                            let centre = turned.backwards(vector - wall.point);
+                            self.features.clear();
+                            shape.features_near(centre, farthest + scalar + range, &mut self.features);
+                            for &(feature, distance) in &self.features {
+                                add(feature, distance - scalar - range);
+                            }
+                        }
                     }
                 }
                 for block in candidates.chunks(WIDTH) {
                     group.push_block(block, |group, lane| {
-                        let row = around.order[block[lane].rows[0] as usize];
-                        memory.find([row, wall_partner(feature)], group, *number)
+                        let [row, feature] = block[lane].rows;
+                        let partner = wall_partner(WallFeature::from_number(feature));
+                        memory.find([around.order[row as usize], partner], group, *number)
                     });
                 }
             }

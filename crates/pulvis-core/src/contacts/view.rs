@@ -7,7 +7,7 @@ use pulvis_math::Vector3;
 
 use super::block::{ContactGroup, Partner};
 use crate::particles::{ParticleId, Particles};
-use crate::walls::WallNow;
+use crate::walls::{WallFeature, WallNow};
 use pulvis_boundary::{Images, UpperTriangular};
 
 /// The second body of a contact.
@@ -48,8 +48,8 @@ pub struct ContactView<'a> {
 pub(crate) struct Deep {
     /// Rows of the bodies; the second one of a wall means nothing.
     pub(crate) rows: [usize; 2],
-    /// The wall, if it is with one.
-    pub(crate) wall: Option<usize>,
+    /// The feature of a wall, if it is with one.
+    pub(crate) wall: Option<WallFeature>,
     /// Overlap [m].
     pub(crate) overlap: f64,
 }
@@ -111,12 +111,15 @@ impl<'a> Views<'a> {
                 Partner::Particle => {
                     Deep { rows: [first, self.group.second_row(block, lane) as usize], wall: None, overlap }
                 }
-                Partner::Wall => Deep { rows: [first; 2], wall: Some(self.group.wall(block)), overlap },
+                Partner::Wall => {
+                    let feature = WallFeature::from_number(self.group.second_row(block, lane));
+                    Deep { rows: [first; 2], wall: Some(feature), overlap }
+                }
             })
         })
     }
 
-    /// The overlap of a contact [m].
+    /// The overlap of a contact [m]; `None` of one with a feature of a wall that the particle does not touch.
     pub(crate) fn overlap(&self, block: usize, lane: usize) -> Option<f64> {
         let first = self.group.first_row(block, lane) as usize;
         Some(self.geometry(first, block, lane)?.motion.overlap)
@@ -190,7 +193,10 @@ impl<'a> Views<'a> {
             Partner::Wall => {
                 let index = self.group.wall(block);
                 let wall = self.walls.get(index)?;
-                let surface = wall.surface(centre);
+                let feature = WallFeature::from_number(self.group.second_row(block, lane));
+                // What is farther away than this does not act.
+                let limit = radius[i] + self.group.interaction_range;
+                let (surface, normal_turning) = wall.feature(feature, centre, limit)?;
                 let turning = wall.angular_velocity().unwrap_or(Vector3::zero());
                 let mut motion = ContactKinematics {
                     normal: surface.normal,
@@ -206,7 +212,7 @@ impl<'a> Views<'a> {
                     angular_velocity_i_mid: angular_velocity(i),
                     angular_velocity_j_mid: turning,
                 };
-                wall.move_against(&surface, centre, &mut motion);
+                wall.move_against(&surface, normal_turning, centre, &mut motion);
                 let quantities = self.group.quantities(&particles.columns, i, None);
                 let pair = Pair::from_sums(1.0 / mass[i], 1.0 / radius[i] + surface.mean_curvature)
                     .with_quantities(quantities);

@@ -6,4 +6,4 @@ mod skin;
 
 pub(crate) use grid::{CellGrid, RowRangePair};
 pub(crate) use moved::Moved;
-pub(crate) use skin::{Carried, Skin};
+pub(crate) use skin::{Carried, ListedWall, Skin};

@@ -10,6 +10,15 @@ use crate::particles::Particles;
 use crate::thread_pool::ThreadPool;
 use crate::walls::{Shape, Wall};
 
+/// Where a wall was at a rebuild.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ListedWall {
+    /// Reference point [m].
+    pub(crate) point: Vector3,
+    /// Angle by which it had turned [rad].
+    pub(crate) angle: f64,
+}
+
 /// How far particles and walls may move before the neighbour list is rebuilt, and where they were at the last rebuild.
 ///
 /// Every particle has a skin of its own. Two particles are neighbours if their skins overlap, and the list is valid as
@@ -22,8 +31,8 @@ pub(crate) struct Skin {
     pub(crate) thinnest: f64,
     /// Centres at the last rebuild [m], and radii with skins [m].
     pub(crate) positions: Vec<Packed4>,
-    /// Reference points of the walls at the last rebuild [m].
-    pub(crate) walls: Vec<Vector3>,
+    /// Where the walls were at the last rebuild.
+    pub(crate) walls: Vec<ListedWall>,
     /// Steps since the last rebuild.
     pub(crate) steps: u64,
 }
@@ -115,7 +124,7 @@ impl Skin {
     /// Stores the positions of the walls.
     pub(crate) fn renew_walls(&mut self, walls: &[Wall]) {
         self.walls.clear();
-        self.walls.extend(walls.iter().map(|wall| wall.point));
+        self.walls.extend(walls.iter().map(|wall| ListedWall { point: wall.point, angle: wall.angle }));
     }
 
     /// Follows a new order of the particles: row k is what was row `order[k]`.
@@ -170,7 +179,13 @@ impl Skin {
     /// of symmetry brings a wall no nearer. NaN if a
     /// wall stands nowhere.
     pub(crate) fn moved_walls(&self, walls: &[Wall]) -> f64 {
-        let approach = |(now, before): (&Wall, &Vector3)| now.shape.approach(now.point - *before);
+        let approach = |(now, before): (&Wall, &ListedWall)| {
+            let approach = now.shape.approach(now.point - before.point);
+            if now.angle == before.angle {
+                return approach;
+            }
+            approach + (now.angle - before.angle).abs() * now.shape.distance_from_axis()
+        };
         walls.iter().zip(&self.walls).map(approach).fold(0.0, max_or_nan)
     }
 

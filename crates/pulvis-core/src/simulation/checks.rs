@@ -95,6 +95,7 @@ pub(super) fn check_wall_motion(index: usize, motion: WallMotion) -> Result<(), 
 /// The shape checks itself, against the largest particle.
 fn check_wall(wall: &Wall) -> Check {
     finite_vector("point [m]", wall.point)?;
+    finite("angle [rad]", wall.angle)?;
     check_area(&wall.area)?;
     check_motion(wall.motion)
 }

@@ -7,7 +7,7 @@ use super::Simulation;
 use super::errors::{Alarm, StepError};
 use crate::contacts::{ContactPartner, Deep};
 use crate::particles::ParticleId;
-use crate::walls::Shape;
+use crate::walls::WallFeature;
 
 /// Overlap over the smaller radius from which a contact is taken down as the first deep one [1]. Laws of contacts are
 /// made for overlaps that are small beside the radius; where a run explodes, the contact that began it passed this first.
@@ -60,7 +60,7 @@ impl Simulation {
         match wall {
             Some(wall) => {
                 let wall = self.walls.get(wall)?;
-                let surface = Partner::Wall { mean_curvature: wall.shape.least_mean_curvature() };
+                let surface = Partner::Wall { mean_curvature: wall.shape.least_mean_curvature_for(one.1) };
                 Some(self.interactions.get(material, wall.material)?.shortest_contact_time(one, surface))
             }
             None => {
@@ -86,7 +86,9 @@ impl Simulation {
         }
         let [first, second] = deep.rows.map(|row| self.particles.id[row]);
         Err(self.alarm(match deep.wall {
-            Some(wall) => Alarm::BehindWall { id: first, wall: self.walls[wall].name.clone(), overlap, most },
+            Some(feature) => {
+                Alarm::BehindWall { id: first, wall: self.walls[feature.wall()].name.clone(), overlap, most }
+            }
             None => Alarm::Overlap { id: first, other: second, overlap, most },
         }))
     }
@@ -127,7 +129,7 @@ impl Simulation {
         let Deep { rows: [one, other], wall, .. } = deep;
         let particles = &self.particles;
         let second = match wall {
-            Some(wall) => ContactPartner::Wall(wall),
+            Some(feature) => ContactPartner::Wall(feature.wall()),
             None => ContactPartner::Particle(particles.id[other]),
         };
         Some(DeepContact {
@@ -136,20 +138,22 @@ impl Simulation {
             overlap,
             radius,
             closing_speed: self.closing_speed(one, other, wall),
-            contact_time: self.contact_time_of(deep.rows, wall)?,
+            contact_time: self.contact_time_of(deep.rows, wall.map(WallFeature::wall))?,
             time_step: self.time_step,
             step: self.step,
             time: self.time,
         })
     }
 
-    fn closing_speed(&self, one: usize, other: usize, wall: Option<usize>) -> f64 {
+    fn closing_speed(&self, one: usize, other: usize, wall: Option<WallFeature>) -> f64 {
         let particles = &self.particles;
         let (centre, velocity) = (particles.position[one].vector, particles.velocity[one].vector);
         let (normal, relative) = match wall {
-            Some(wall) => {
-                let surface = self.wall_states[wall].now_at_rest(&self.walls[wall]).surface(centre);
-                (surface.normal, velocity - self.wall_states[wall].velocity)
+            Some(feature) => {
+                let (wall, state) = (&self.walls[feature.wall()], &self.wall_states[feature.wall()]);
+                let seen = state.now_at_rest(wall).feature(feature, centre, f64::INFINITY);
+                let normal = seen.map_or(Vector3::zero(), |(surface, _)| surface.normal);
+                (normal, velocity - state.velocity)
             }
             None => {
                 let separation = self.domain.images().nearest(centre - particles.position[other].vector);

@@ -75,7 +75,7 @@ pub enum SetupError {
     /// A wall stands across a periodic direction: a particle that leaves through the boundary would
     /// come back on the wall's other side.
     #[error(
-        "wall {wall} stands across axis {axis}, which is periodic; a plane's normal must have no part along a periodic axis, and a cylinder's axis must be along it"
+        "wall {wall} stands across axis {axis}, which is periodic; a plane's normal must have no part along a periodic axis, a cylinder's axis must be along it, and shapes with edges stand in open space only"
     )]
     WallAcrossPeriod {
         /// Index in the list of walls.
@@ -89,8 +89,8 @@ pub enum SetupError {
         /// Index in the list of walls.
         wall: usize,
     },
-    /// A wall that is no plane is to follow a pressure.
-    #[error("wall {wall} follows a pressure, but is no plane")]
+    /// A wall without a direction for it is to follow a pressure.
+    #[error("wall {wall} follows a pressure, but its shape has no direction to be pushed in")]
     ServoNeedsPlane {
         /// Index in the list of walls.
         wall: usize,
@@ -108,6 +108,12 @@ pub enum SetupError {
         name: String,
         /// What is wrong.
         reason: String,
+    },
+    /// Bonds with a mesh: a bond belongs to one flat part, edge or corner, and could not pass on to the next.
+    #[error("wall `{name}` is a mesh, and the contacts with it may be bonded, which a mesh cannot be")]
+    BondWithMesh {
+        /// Name of the wall.
+        name: String,
     },
     /// More walls than can be told apart.
     #[error("{found} walls are more than {most}, the most that contacts can tell apart")]

@@ -11,6 +11,7 @@ use pulvis_math::Vector3;
 use super::Simulation;
 use super::errors::{Alarm, StepError};
 use crate::ledger::Ledger;
+use crate::walls::Shape;
 
 /// Limits of what a simulation may do before [`Simulation::advance`] stops with an [`Alarm`]. NaN and infinity always
 /// stop it.
@@ -95,7 +96,10 @@ impl Simulation {
             }
         }
         for (wall, state) in self.walls.iter().zip(&self.wall_states).filter(|(wall, _)| wall.present) {
-            let way = state.displacement.norm();
+            let mut way = state.displacement.norm();
+            if wall.shape.is_turned_by_rotation() {
+                way += state.angular_velocity.abs() * self.time_step * wall.shape.distance_from_axis();
+            }
             if !fits(way) {
                 let (wall, radii) = (wall.name.clone(), way / smallest);
                 return Err(self.alarm(Alarm::WallTooFast { wall, radii, most }));

@@ -32,7 +32,9 @@ use crate::neighbours::{Moved, Skin};
 use crate::particles::{MaterialIndex, Particle, Particles};
 use crate::phases::Phases;
 use crate::thread_pool::ThreadPool;
-use crate::walls::{FaceArea, Shape, Wall, WallFeature, WallForce, WallMotion, WallNow, WallState};
+use crate::walls::{
+    FaceArea, Shape, Wall, WallFeature, WallForce, WallMotion, WallNow, WallShape, WallState,
+};
 use pulvis_boundary::Background;
 use pulvis_boundary::{Domain, TemperatureProgram};
 
@@ -267,7 +269,10 @@ impl Simulation {
                 }
             }
         }
-        Ok(())
+        match self.walls.iter().find_map(|wall| self.bonded_to_mesh(wall)) {
+            Some(name) => Err(SetupError::BondWithMesh { name }),
+            None => Ok(()),
+        }
     }
 
     fn check_walls(&self) -> Result<(), SetupError> {
@@ -292,11 +297,21 @@ impl Simulation {
         Ok(())
     }
 
+    /// The name of a wall whose features a bond could not follow.
+    fn bonded_to_mesh(&self, wall: &Wall) -> Option<String> {
+        let bonds = |&material: &MaterialIndex| {
+            let model = self.interactions.get(material, wall.material);
+            model.is_some_and(|model| model.laws.bond.is_some())
+        };
+        let is_mesh = matches!(wall.shape, WallShape::Mesh(_));
+        (is_mesh && self.materials.iter().any(bonds)).then(|| wall.name.clone())
+    }
+
     /// Whether a wall can move in this way.
     fn check_motion(&self, index: usize, motion: &WallMotion) -> Result<(), SetupError> {
         let wall = &self.walls[index];
         let motion = motion.law();
-        if motion.is_pushed() && wall.plane_normal().is_none() {
+        if motion.is_pushed() && wall.shape.direction_of_push().is_none() {
             return Err(SetupError::ServoNeedsPlane { wall: index });
         }
         if motion.needs_area() && wall.area == FaceArea::Unknown {

@@ -1,7 +1,7 @@
 //! Names of the parts of walls that contacts are with.
 
 /// A feature of a wall: the part of its surface that a contact is with. Planes and cylinders have one; a mesh has its
-/// facets, edges and corners. What a contact remembers belongs to a particle and a feature.
+/// flat parts, edges and corners. What a contact remembers belongs to a particle and a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct WallFeature(u32);
 
@@ -29,6 +29,11 @@ impl WallFeature {
         self.0
     }
 
+    /// The index of the feature among those of the wall.
+    pub(crate) fn index(self) -> u32 {
+        self.0 >> WALL_BITS
+    }
+
     /// The index of the wall.
     #[inline(always)]
     pub(crate) fn wall(self) -> usize {
@@ -47,6 +52,7 @@ mod tests {
             for feature in [0, 1, 77, (1 << 20) - 1] {
                 let key = WallFeature::new(wall, feature);
                 assert_eq!(WallFeature::from_number(key.number()).wall(), wall);
+                assert_eq!(key.index(), feature);
                 assert!(key.number() < 1 << 30 && numbers.insert(key.number()));
             }
         }

@@ -5,10 +5,12 @@ mod now;
 mod record;
 
 pub(crate) use feature::WallFeature;
-pub(crate) use now::{WallForce, WallNow};
+pub(crate) use now::{Turned, WallForce, WallNow};
+pub(crate) use pulvis_boundary::Shape;
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Push, Rotation, Servo, Velocity};
-pub use pulvis_boundary::{Cylinder, CylinderSide, Plane, WallMotion, WallShape};
-pub(crate) use pulvis_boundary::{Shape, Surface};
+pub use pulvis_boundary::{
+    Cone, Cylinder, CylinderSide, Disk, Mesh, Plane, PlaneWithHole, TriangleMesh, Tube, WallMotion, WallShape,
+};
 
 use pulvis_math::Vector3;
 
@@ -67,8 +69,10 @@ pub struct Wall {
     pub material: MaterialIndex,
     /// What its surface looks like.
     pub shape: WallShape,
-    /// Its reference point: a point of the plane or of the cylinder's axis [m].
+    /// Its reference point: a point of the plane, of the axis, the middle of a disk or of a first end [m].
     pub point: Vector3,
+    /// By how much it has turned about its axis [rad]; stays zero for shapes that look the same after a turn.
+    pub angle: f64,
     /// How it moves.
     pub motion: WallMotion,
     /// The area of its face.
@@ -96,6 +100,7 @@ impl Wall {
             material,
             shape: shape.into(),
             point,
+            angle: 0.0,
             motion: WallMotion::Fixed,
             area: FaceArea::Unknown,
             present: true,
@@ -106,13 +111,25 @@ impl Wall {
     pub fn plane_normal(&self) -> Option<Vector3> {
         match self.shape {
             WallShape::Plane(Plane { normal }) => Some(normal),
-            WallShape::Cylinder(_) => None,
+            _ => None,
         }
     }
 
-    /// The direction in which forces move the wall: only planes are pushed.
+    /// The direction in which forces move the wall, towards the particles; zero where none can.
     fn direction_of_push(&self) -> Vector3 {
-        self.plane_normal().unwrap_or(Vector3::zero())
+        self.shape.direction_of_push().unwrap_or(Vector3::zero())
+    }
+
+    /// Position along the direction in which a pressure moves it [m]; other shapes have none.
+    pub fn position_of_push(&self) -> Option<f64> {
+        self.shape.direction_of_push().map(|direction| self.point.dot(direction))
+    }
+
+    /// The lines that show a shape with edges, where it is now [m]; others have none.
+    pub fn outline(&self) -> Vec<[Vector3; 2]> {
+        let turned = Turned::of(self);
+        let lines = self.shape.edged().map(|shape| shape.outline()).unwrap_or_default();
+        lines.into_iter().map(|line| line.map(|end| self.point + turned.forwards(end))).collect()
     }
 
     /// Position of a plane along its normal [m]; other shapes have none.
@@ -120,9 +137,12 @@ impl Wall {
         self.plane_normal().map(|normal| self.point.dot(normal))
     }
 
-    /// Distance of a point from the surface, negative behind it [m].
+    /// Distance of a point from the surface, negative behind it [m]; shapes with edges have no side behind them.
     pub fn distance(&self, from: Vector3) -> f64 {
-        self.shape.surface(self.point, from).distance
+        match self.shape.edgeless() {
+            Some(shape) => shape.surface(self.point, from).distance,
+            None => self.shape.distance(Turned::of(self).backwards(from - self.point)),
+        }
     }
 
     /// The distance to a parallel plane that it faces [m], negative where they have passed each other; `None` if they
@@ -192,6 +212,9 @@ impl WallState {
             }
         }
         wall.point += self.displacement;
+        if wall.shape.is_turned_by_rotation() {
+            wall.angle += self.angular_velocity * time_step;
+        }
     }
 
     fn prescribe(&mut self, travelled: Vector3, velocity: Vector3, time_step: f64) {

@@ -8,7 +8,7 @@ use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use pulvis_boundary::motion::{Parameter, Presence, Range, Slot};
-use pulvis_boundary::{Shape, WallMotion, WallShape};
+use pulvis_boundary::{Shape, WallMotion};
 
 /// What happens to a wall at the start of a stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,16 +79,16 @@ fn read_motion(
 /// Why a wall cannot move in this way.
 fn unfit(motion: &WallMotion, wall: &Wall) -> Option<Problem> {
     let (motion, name) = (motion.law(), &wall.name);
-    let (kind, is_plane) = (wall.shape.name(), matches!(wall.shape, WallShape::Plane(_)));
-    let (found, expected) = if motion.is_pushed() && !is_plane {
+    let kind = wall.shape.name();
+    let (found, expected) = if motion.is_pushed() && wall.shape.direction_of_push().is_none() {
         let found = format!("the wall {name} is a {kind}, which no pressure can move");
-        (found, "a wall with `kind = \"plane\"`".to_owned())
+        (found, "a plane, a disk, a plane-with-hole or a mesh".to_owned())
     } else if motion.needs_area() && wall.face.is_none() && wall.area.is_none() {
         let found = format!("the wall {name} has no area for the pressure to act on");
         (found, format!("`area` in [walls.{name}]"))
     } else if motion.needs_axis() && wall.shape.axis().is_none() {
         let found = format!("the wall {name} is a {kind}, which has no axis to rotate about");
-        (found, "a wall with `kind = \"cylinder\"`".to_owned())
+        (found, "a wall with an axis: any kind but \"plane\"".to_owned())
     } else {
         return None;
     };

@@ -43,6 +43,7 @@ mod controls;
 mod domain;
 mod limits;
 mod materials;
+mod mesh_file;
 mod observers;
 mod output;
 mod particles;
@@ -59,6 +60,7 @@ mod switches;
 mod time;
 mod until;
 mod walk;
+mod wall_mesh;
 mod wall_shape;
 mod walls;
 
@@ -71,6 +73,7 @@ pub use contacts::Contact;
 pub use controls::WallControl;
 pub use limits::Limits;
 pub use materials::Material;
+pub use mesh_file::MeshFileError;
 pub use observers::{ObservedQuantity, Observer};
 pub use output::{CheckpointPlan, Dimensionless, Interval, OutputPlan, Snapshots};
 pub use particles::{ParticleGroup, VelocityPlan};
@@ -78,14 +81,15 @@ pub use points::PointsError;
 pub use programs::{Program, ProgramState, Programs};
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};
 pub use pulvis_boundary::{
-    Background, CellControl, CellMotion, Cuboid, Cylinder, CylinderSide, Domain, Plane, Region,
-    TemperatureProgram, UpperTriangular, WallMotion, WallShape,
+    Background, CellControl, CellMotion, Cone, Cuboid, Cylinder, CylinderSide, Disk, Domain, Mesh, Plane,
+    PlaneWithHole, Region, TemperatureProgram, Tube, UpperTriangular, WallMotion, WallShape,
 };
 pub use pulvis_packing::{GasVelocities, Lattice, RadiusDistribution};
 pub use stages::Stage;
 pub use start::StartFrom;
 pub use time::TimeStep;
 pub use until::{Crossing, ShearRule, StopRules, StrainRule, StressRule};
+pub use wall_mesh::MeshSource;
 pub use walls::Wall;
 
 use crate::document::Document;

@@ -84,7 +84,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     // Everything else speaks of materials.
     let (materials, fit) = read_materials(&mut root)?;
     let known = domain.as_ref().map_or(None, Option::as_ref);
-    let walls = read_walls(&mut root, &materials, known);
+    let walls = read_walls(&mut root, &materials, known, folder);
     let groups = read_particles(&mut root, &materials, folder);
     let stages = match (&walls, &time) {
         (Ok(walls), Ok(time)) => read_stages(&mut root, known, &walls.walls, *time),

@@ -1,16 +1,18 @@
-//! Walls: the box, and further planes and cylinders.
+//! Walls: the box, and further ones of any shape.
 
 use super::axis::{Axis, BoxFace, Side};
 use super::domain::read_extent;
 use super::materials::{Material, read_material_name};
-use super::wall_shape::read_shape;
+use super::wall_mesh::MeshSource;
+use super::wall_shape::{Placed, read_shape};
 use crate::context::{Location, Reported};
 use crate::list::List;
 use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::Name;
-use pulvis_boundary::{Cuboid, Cylinder, CylinderSide, Domain, Plane, Shape, WallShape};
+use pulvis_boundary::{Cuboid, Cylinder, CylinderSide, Domain, Plane, WallShape};
 use pulvis_math::Vector3;
+use std::path::Path;
 
 /// A wall at the start of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +21,7 @@ pub struct Wall {
     pub name: String,
     /// Index of its material.
     pub material: usize,
-    /// A point of the plane or of the cylinder's axis [m].
+    /// Its reference point [m].
     pub point: Vector3,
     /// What its surface looks like.
     pub shape: WallShape,
@@ -28,12 +30,17 @@ pub struct Wall {
     /// Area on which a servo's pressure acts [m^2]. Of a face of the box it is always `None`: it follows
     /// from the distances of the other walls.
     pub area: Option<f64>,
+    /// Where the triangles of a mesh come from.
+    pub mesh: Option<MeshSource>,
 }
 
 impl Wall {
     /// Distance of a point from the surface, positive on the particles' side [m].
     pub fn distance(&self, point: Vector3) -> f64 {
-        self.shape.surface(self.point, point).distance
+        match self.shape.edgeless() {
+            Some(shape) => shape.surface(self.point, point).distance,
+            None => self.shape.distance(point - self.point),
+        }
     }
 
     /// On which side of it particles have to be, in words.
@@ -41,6 +48,7 @@ impl Wall {
         match &self.shape {
             WallShape::Plane(_) => "particles on the side to which the wall's normal points".to_owned(),
             WallShape::Cylinder(cylinder) => format!("particles {} the cylinder", cylinder.side.name()),
+            _ => "particles on one side of the wall or the other".to_owned(),
         }
     }
 }
@@ -52,11 +60,12 @@ pub(super) struct Walls {
     pub(super) walls: Vec<Wall>,
 }
 
-/// Reads `[box]` and `[walls.NAME]`.
+/// Reads `[box]` and `[walls.NAME]`; files of meshes are relative to `folder`.
 pub(super) fn read_walls(
     root: &mut TableReader<'_>,
     materials: &[Material],
     domain: Option<&Domain>,
+    folder: &Path,
 ) -> Result<Walls, Reported> {
     let enclosed = match root.optional_table("box") {
         Ok(Some(table)) => read_box(table, materials, domain).map(|(extent, walls)| (Some(extent), walls)),
@@ -66,7 +75,7 @@ pub(super) fn read_walls(
     let tables = root.named_tables("walls")?;
     let places: Vec<Location> = tables.iter().map(|(_, table)| table.location("")).collect();
     let planes: Vec<_> =
-        tables.into_iter().map(|(name, table)| read_wall(name, table, materials, domain)).collect();
+        tables.into_iter().map(|(name, table)| read_wall(name, table, materials, domain, folder)).collect();
     let (enclosure, mut walls) = enclosed?;
     for (plane, place) in planes.into_iter().zip(places) {
         let plane = plane?;
@@ -122,6 +131,7 @@ fn read_box(
         shape: Plane { normal: face.normal() }.into(),
         face: Some(face),
         area: None,
+        mesh: None,
     });
     Ok((extent, walls.collect()))
 }
@@ -179,6 +189,7 @@ fn read_wall(
     mut table: TableReader<'_>,
     materials: &[Material],
     domain: Option<&Domain>,
+    folder: &Path,
 ) -> Result<Wall, Reported> {
     let named = if BoxFace::NAMES.contains(&name.as_str()) {
         let found = format!("{name} is the name of a face of the box");
@@ -187,11 +198,11 @@ fn read_wall(
         Ok(())
     };
     let material = read_material_name(&mut table, "material", materials);
-    let shape = read_shape(&mut table, domain);
+    let placed = read_shape(&mut table, domain, folder);
     table.finish();
     named?;
-    let (material, (shape, point, area)) = (material?, shape?);
-    Ok(Wall { name, material, point, shape, face: None, area })
+    let (material, Placed { shape, point, area, mesh }) = (material?, placed?);
+    Ok(Wall { name, material, point, shape, face: None, area, mesh })
 }
 
 /// Two walls that coincide, or face away from each other so that no space is left between them.

@@ -1,5 +1,6 @@
 //! What is measured of a running simulation: one row of the time series.
 
+use pulvis_boundary::Shape;
 use pulvis_core::Simulation;
 use pulvis_core::observation::ObservationPlan;
 use pulvis_input::scenario::{Scenario, WallShape};
@@ -60,7 +61,10 @@ pub fn column_names(scenario: &Scenario) -> Vec<String> {
     for wall in &scenario.walls {
         let names: &[&str] = match wall.shape {
             WallShape::Plane(_) => &["position", "force"],
-            WallShape::Cylinder(_) => &["force_x", "force_y", "force_z", "torque"],
+            _ if wall.shape.direction_of_push().is_some() => {
+                &["force_x", "force_y", "force_z", "torque", "position"]
+            }
+            _ => &["force_x", "force_y", "force_z", "torque"],
         };
         columns.extend(names.iter().map(|name| format!("{name}_{}", wall.name)));
     }
@@ -182,6 +186,7 @@ impl Measure {
                 None => {
                     row.extend(force.to_array());
                     row.push(simulation.wall_torque(place));
+                    row.extend(wall.position_of_push());
                 }
             }
         }

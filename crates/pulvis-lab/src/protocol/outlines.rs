@@ -1,7 +1,8 @@
-//! The walls of a run as pictures and files show them: edges, and axes of cylinders.
+//! The walls of a run as pictures and files show them: edges, rims, and axes of cylinders.
 
 use pulvis_boundary::{Cylinder, CylinderSide, WallShape};
 use pulvis_core::Simulation;
+use pulvis_core::walls::Wall;
 use pulvis_input::scenario::Scenario;
 use pulvis_io::picture::{OutlineBox, OutlineCylinder};
 use pulvis_io::vtk::{Numbers, PolyData};
@@ -18,12 +19,20 @@ pub(super) fn walls(scenario: &Scenario, simulation: &Simulation) -> PolyData {
     let boxes = boxes(scenario, simulation, &cylinders);
     let mut edges: Vec<[[f64; 3]; 2]> = boxes.iter().flat_map(OutlineBox::edges).collect();
     edges.extend(tilted_edges(simulation));
+    edges.extend(rims(simulation));
     let radii = edges.iter().map(|_| 0.0).chain(cylinders.iter().map(|cylinder| cylinder.radius)).collect();
     let lines = edges.iter().chain(cylinders.iter().map(|cylinder| &cylinder.ends));
     PolyData {
         points: lines.flatten().copied().collect(),
         columns: vec![("radius".to_owned(), Numbers::Scalar(radii))],
     }
+}
+
+/// The lines of the walls with edges that are there: rims, lines along cones and tubes, edges of meshes.
+fn rims(simulation: &Simulation) -> impl Iterator<Item = [[f64; 3]; 2]> {
+    let walls = simulation.walls().iter().filter(|wall| wall.present);
+    let lines = walls.flat_map(Wall::outline).map(|line| line.map(Vector3::to_array));
+    lines.filter(|line| line.iter().flatten().all(|x| x.is_finite()))
 }
 
 /// The edges of a tilted cell from its lower corner, which lead to the next images; the block that holds the particles is
@@ -88,10 +97,11 @@ fn boxes(scenario: &Scenario, simulation: &Simulation, cylinders: &[OutlineCylin
 /// The cylinders that are there, from one end of the box or of the particles to the other.
 fn cylinders(scenario: &Scenario, simulation: &Simulation) -> Vec<OutlineCylinder> {
     let walls = simulation.walls().iter().filter(|wall| wall.present);
-    let cylinder = |shape| if let WallShape::Cylinder(cylinder) = shape { Some(cylinder) } else { None };
+    let cylinder =
+        |shape: &WallShape| if let WallShape::Cylinder(cylinder) = shape { Some(*cylinder) } else { None };
     walls
         .filter_map(|wall| {
-            let cylinder = cylinder(wall.shape)?;
+            let cylinder = cylinder(&wall.shape)?;
             let [low, high] = ends(scenario, simulation, &cylinder, wall.point)?;
             let end = |along: f64| (wall.point + cylinder.axis * along).to_array();
             Some(OutlineCylinder { ends: [end(low), end(high)], radius: cylinder.radius })

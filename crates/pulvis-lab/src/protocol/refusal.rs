@@ -35,6 +35,12 @@ pub(super) fn refuse_setup(scenario: &Scenario, error: &SetupError) -> PrepareEr
                 help,
             )
         }
+        SetupError::BondWithMesh { name } => {
+            let path = format!("walls.{name}");
+            let found = "the contacts with a mesh may be bonded";
+            let expected = "no bond with a mesh: it could not pass on from one part of the mesh to the next";
+            refused(scenario, &[&path], found, expected, "take another material for the mesh")
+        }
         SetupError::NoModel { one, other } => {
             let name = |index: MaterialIndex| scenario.materials[usize::from(index)].name.as_str();
             let (one, other) = (name(*one), name(*other));

@@ -218,7 +218,7 @@ pub(super) fn drawn_walls(scenario: &Scenario) -> Vec<Wall> {
 }
 
 fn wall(scenario: &Scenario, plan: &WallPlan) -> Wall {
-    let mut wall = Wall::of_shape(&plan.name, plan.material as MaterialIndex, plan.point, plan.shape);
+    let mut wall = Wall::of_shape(&plan.name, plan.material as MaterialIndex, plan.point, plan.shape.clone());
     wall.area = match (plan.area, plan.face) {
         (Some(area), _) => FaceArea::Given(area),
         (None, Some(face)) => {

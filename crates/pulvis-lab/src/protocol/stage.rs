@@ -1,5 +1,6 @@
 //! When a stage ends.
 
+use pulvis_boundary::Shape;
 use pulvis_core::{CellControl, Simulation, UpperTriangular};
 use pulvis_input::scenario::{Crossing, Programs, Scenario, Stage, StopRules, WallMotion};
 
@@ -246,7 +247,7 @@ fn pressures_reached(simulation: &Simulation, tolerance: f64) -> bool {
         return false;
     }
     pistons.all(|(place, wall, pressure)| {
-        let stress = wall.plane_normal().zip(wall.area.of(walls));
+        let stress = wall.shape.direction_of_push().zip(wall.area.of(walls));
         let stress = stress.map(|(normal, area)| -simulation.wall_force(place).dot(normal) / area);
         stress.is_some_and(|stress| is_near(stress, pressure))
     })

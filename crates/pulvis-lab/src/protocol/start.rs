@@ -253,10 +253,11 @@ fn same_system(scenario: &Scenario, parent: &Scenario) -> Result<(), PrepareErro
             format!("those of the run: {}", walls(parent)),
         );
     }
-    let shapes = |scenario: &Scenario| {
-        scenario.walls.iter().map(|wall| (wall.shape, wall.area, wall.face)).collect::<Vec<_>>()
-    };
-    if shapes(scenario) != shapes(parent) || scenario.enclosure != parent.enclosure {
+    let same_shapes =
+        scenario.walls.iter().zip(&parent.walls).all(|(wall, other)| {
+            (&wall.shape, wall.area, wall.face) == (&other.shape, other.area, other.face)
+        });
+    if !same_shapes || scenario.enclosure != parent.enclosure {
         let found = "the walls have other shapes, sizes or areas".to_owned();
         return differs("box", found, "those of the run".to_owned());
     }

@@ -1,6 +1,5 @@
 //! Two bodies that stand for all between two materials.
 
-use pulvis_boundary::Shape;
 use pulvis_contact::{Pair, Partner};
 use pulvis_core::Particle;
 use pulvis_input::scenario::Scenario;
@@ -21,17 +20,17 @@ pub(super) struct TypicalBodies {
 impl TypicalBodies {
     /// Those of two materials; `None` without particles of either.
     pub(super) fn of(scenario: &Scenario, particles: &[Particle], materials: [usize; 2]) -> Option<Self> {
-        let wall = |material: usize| {
+        let wall = |material: usize, (_, radius): Body| {
             let curvatures = scenario.walls.iter().filter(|wall| wall.material == material);
-            let least = curvatures.map(|wall| wall.shape.least_mean_curvature()).reduce(min_or_nan);
+            let least = curvatures.map(|wall| wall.shape.least_mean_curvature_for(radius)).reduce(min_or_nan);
             Partner::Wall { mean_curvature: least.unwrap_or(0.0) }
         };
         match materials.map(|material| mean_body(particles, material)) {
             [Some(body), Some((mass, radius))] => {
                 Some(Self { body, partner: Partner::Sphere { mass, radius } })
             }
-            [Some(body), None] => Some(Self { body, partner: wall(materials[1]) }),
-            [None, Some(body)] => Some(Self { body, partner: wall(materials[0]) }),
+            [Some(body), None] => Some(Self { body, partner: wall(materials[1], body) }),
+            [None, Some(body)] => Some(Self { body, partner: wall(materials[0], body) }),
             [None, None] => None,
         }
     }

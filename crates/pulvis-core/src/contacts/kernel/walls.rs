@@ -61,7 +61,18 @@ impl Kernel for WallLoop<'_> {
                 let wall = &walls[group.wall(block)];
                 // SAFETY (here and below): rows lie within the columns, as the caller of `sweep` vouches.
                 let (centre, radius) = unsafe { gather::<R>(moving.position, rows) };
-                let surface = wall.surface(centre);
+                let (surface, turning) = match wall.surface(centre) {
+                    Some(surface) => (surface, None),
+                    None => {
+                        let centres = [centre.x, centre.y, centre.z].map(|column| column.to_array());
+                        let range = group.interaction_range;
+                        let occupancy = group.occupancy(block);
+                        let features = group.wall_features(block);
+                        let seen = wall.features(features, centres, radius.to_array(), range, occupancy);
+                        let (surface, turning) = seen.load();
+                        (surface, Some(turning))
+                    }
+                };
                 let overlap = radius - surface.distance;
                 let valid = occupied_lanes::<R>(group.occupancy[block]);
                 let overlap = R::select(valid, overlap, interaction_range + interaction_range - radius);
@@ -80,7 +91,7 @@ impl Kernel for WallLoop<'_> {
                 let motion = &mut inputs.motion;
                 (motion.normal, motion.overlap, motion.radius_i) = (surface.normal, overlap, radius);
                 (motion.velocity, motion.velocity_mid) = (velocity, mid);
-                let arm = wall.move_against(&surface, centre, motion);
+                let arm = wall.move_against(&surface, turning, centre, motion);
                 if turns {
                     motion.angular_velocity_i_mid =
                         unsafe { gather::<R>(moving.angular_velocity_mid, rows) }.0;

@@ -66,6 +66,7 @@ impl State {
             let name = |of: &str| format!("{of} of wall `{}`", record.name);
             check_values(&name("point"), record.point, FINITE)?;
             check_values(&name("listed_point"), record.listed_point, FINITE)?;
+            check_values(&name("angle"), [record.angle, record.listed_angle], FINITE)?;
             check_values(&name("motion_start"), [record.motion_start], FINITE)?;
             check_numbers(&name("motion"), &record.motion)?;
         }

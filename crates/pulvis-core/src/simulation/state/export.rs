@@ -1,9 +1,9 @@
 //! Export of a state.
 
-use pulvis_math::{Packed4, Vector3};
+use pulvis_math::Packed4;
 
 use super::{CellState, ListState, ParticleState, State, WallRecord};
-use crate::neighbours::{Moved, Skin};
+use crate::neighbours::{ListedWall, Moved, Skin};
 use crate::particles::{ForceTorque, Particles};
 use crate::simulation::{Outcome, Simulation};
 use crate::walls::{Wall, WallState};
@@ -115,12 +115,14 @@ fn particles_of(particles: &Particles) -> ParticleState {
     }
 }
 
-fn walls_of(walls: &[Wall], states: &[WallState], starts: &[f64], listed: &[Vector3]) -> Vec<WallRecord> {
-    let record = |(((wall, state), start), listed): (((&Wall, &WallState), &f64), &Vector3)| WallRecord {
+fn walls_of(walls: &[Wall], states: &[WallState], starts: &[f64], listed: &[ListedWall]) -> Vec<WallRecord> {
+    let record = |(((wall, state), start), listed): (((&Wall, &WallState), &f64), &ListedWall)| WallRecord {
         name: wall.name.clone(),
         present: wall.present,
         point: wall.point.to_array(),
-        listed_point: listed.to_array(),
+        listed_point: listed.point.to_array(),
+        angle: wall.angle,
+        listed_angle: listed.angle,
         motion_start: *start,
         motion: state.numbers(),
     };

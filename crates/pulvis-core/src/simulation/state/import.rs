@@ -30,6 +30,7 @@ impl Simulation {
         for (wall, record) in walls.iter_mut().zip(&state.walls) {
             wall.present = record.present;
             wall.point = Vector3::from(record.listed_point);
+            wall.angle = record.listed_angle;
         }
         let particles = particles_of(&state.particles, state.next_id);
         let &State { background, time_step, .. } = state;
@@ -105,8 +106,9 @@ impl Simulation {
             outcome.moved = Moved { longest, second, left };
         }
         for (index, record) in state.walls.iter().enumerate() {
-            let WallRecord { name, point, motion_start, motion, .. } = record;
+            let WallRecord { name, point, angle, motion_start, motion, .. } = record;
             self.walls[index].point = Vector3::from(*point);
+            self.walls[index].angle = *angle;
             self.wall_starts[index] = *motion_start;
             self.wall_states[index] =
                 WallState::from_numbers(NumberReader::new(&format!("wall `{name}`"), motion))?;

@@ -103,6 +103,10 @@ pub struct WallRecord {
     pub point: [f64; 3],
     /// Where that was when the neighbour list was made [m].
     pub listed_point: [f64; 3],
+    /// By how much it has turned about its axis, if that changes it [rad].
+    pub angle: f64,
+    /// The same when the neighbour list was made [rad].
+    pub listed_angle: f64,
     /// When its present motion began [s].
     pub motion_start: f64,
     /// What its motion keeps between steps, by name, in SI units.

@@ -5,6 +5,7 @@ use crate::scenario::{
     Arrangement, BoxFace, Cuboid, GasVelocities, ParticleGroup, RadiusDistribution, Scenario, VelocityPlan,
     Wall, WallShape,
 };
+use pulvis_boundary::{Disk, PlaneWithHole};
 use pulvis_math::Dimension;
 
 impl Scenario {
@@ -48,6 +49,26 @@ impl Scenario {
                     writer.key("radius", quantity(cylinder.radius, Dimension::LENGTH));
                     writer.key("side", text(cylinder.side.name()));
                 }
+                WallShape::Cone(cone) => {
+                    writer.key("axis", vector(cone.axis, Dimension::NONE));
+                    let radii = cone.radii.map(|radius| quantity(radius, Dimension::LENGTH));
+                    writer.key("radii", list(radii.into_iter()));
+                    writer.key("height", quantity(cone.height, Dimension::LENGTH));
+                }
+                WallShape::Tube(tube) => {
+                    writer.key("axis", vector(tube.axis, Dimension::NONE));
+                    writer.key("radius", quantity(tube.radius, Dimension::LENGTH));
+                    writer.key("length", quantity(tube.length, Dimension::LENGTH));
+                }
+                WallShape::Disk(Disk { normal, radius })
+                | WallShape::PlaneWithHole(PlaneWithHole { normal, radius }) => {
+                    writer.key("normal", vector(*normal, Dimension::NONE));
+                    writer.key("radius", quantity(*radius, Dimension::LENGTH));
+                }
+                WallShape::Mesh(mesh) => writer.key("axis", vector(mesh.axis, Dimension::NONE)),
+            }
+            if let Some(source) = &wall.mesh {
+                source.write(writer);
             }
             if let Some(area) = wall.area {
                 writer.key("area", quantity(area, Dimension::LENGTH * Dimension::LENGTH));

@@ -1,4 +1,4 @@
-//! The state of a simulation as version 2 of the format has it.
+//! The state of a simulation as version 3 of the format has it.
 //!
 //! [`State`] may change with the engine; what stands in files may not. The conversions list every field, so that the compiler
 //! asks about each new one: another version of the format is due then.
@@ -85,6 +85,8 @@ struct WallEntry {
     present: bool,
     point: [f64; 3],
     listed_point: [f64; 3],
+    angle: f64,
+    listed_angle: f64,
     motion_start: f64,
     motion: Vec<(String, f64)>,
 }
@@ -248,7 +250,7 @@ same_fields!(ParticleState, ParticleColumns:
 
 same_fields!(ContactTotals, Totals: pairs, at_walls, overlap_max, virial;);
 
-same_fields!(WallRecord, WallEntry: name, present, point, listed_point, motion_start, motion;);
+same_fields!(WallRecord, WallEntry: name, present, point, listed_point, angle, listed_angle, motion_start, motion;);
 
 same_fields!(ListState, ListColumns:
     rebuilds, steps, chooses_skin, mean_radius, skin_thickest, skin_thinnest, position, radius_with_skin, former_row,
