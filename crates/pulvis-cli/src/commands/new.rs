@@ -47,6 +47,8 @@ const TEMPLATES: &[Template] = templates![
     "shear" for "run",
     "oedometer" for "run",
     "drum" for "run",
+    "hopper" for "run",
+    "heap" for "run",
     "chute" for "run",
     "cold-spray" for "run",
 ];
