@@ -88,7 +88,7 @@ fn read_cylinder(table: &mut TableReader<'_>, periodic: [bool; 3]) -> Result<Pla
 }
 
 /// Reads a vector of which only the direction counts.
-fn read_direction(table: &mut TableReader<'_>, key: &str) -> Result<Vector3, Reported> {
+pub(super) fn read_direction(table: &mut TableReader<'_>, key: &str) -> Result<Vector3, Reported> {
     let vector = Vector3::from(table.required(key, Vector::of(Dimension::NONE))?);
     // A vector that is of unit length already stays as it is, so that a resolved scenario reads back to
     // the same bits.

@@ -7,6 +7,7 @@ use super::checkpoint::WatchRecord;
 use super::error::RunError;
 use super::explain::likely_cause;
 use super::measure::Measure;
+use super::openings::Openings;
 use super::run::{StageResult, sensible_threads};
 use super::setup::{Prepared, StagePlan, prepare};
 use super::stage::{Ending, StageWatch};
@@ -23,6 +24,7 @@ pub struct Session {
     plans: Vec<StagePlan>,
     walls_arrive: bool,
     measure: Measure,
+    openings: Openings,
     /// The stages that have ended.
     results: Vec<StageResult>,
     /// What the rules of the present stage have seen; `None` between two stages.
@@ -52,9 +54,10 @@ impl Session {
     pub fn new(scenario: Scenario) -> Result<Self, RunError> {
         let prepared = prepare(&scenario)?;
         let warnings = warnings(&scenario, &prepared);
-        let Prepared { simulation, stages: plans, particles: _, origin } = prepared;
+        let Prepared { simulation, stages: plans, particles: _, sample: _, origin } = prepared;
         let mut session = Self {
             measure: Measure::new(&scenario, &simulation),
+            openings: Openings::new(&scenario, origin.openings.as_ref()),
             interactions: origin.interactions,
             walls_arrive: origin.stage_ended,
             plans,
@@ -107,6 +110,7 @@ impl Session {
             let (plan, stage) = (&self.plans[number], &self.scenario.stages[number]);
             switch(&mut self.simulation, &mut self.interactions, plan, stage, self.walls_arrive)?;
             self.walls_arrive = true;
+            self.openings.enter_stage(&stage.name, &self.simulation);
         }
         let stage = &self.scenario.stages[number];
         let mut rules = match &self.watch {
@@ -116,10 +120,13 @@ impl Session {
         self.start_lengths = rules.start_lengths();
         let mut left = most;
         let ending = loop {
-            let steps = rules.steps_left(&self.simulation).clamp(1, left);
+            let openings = self.openings.steps_left(&self.simulation);
+            let steps = rules.steps_left(&self.simulation).min(openings).clamp(1, left);
             self.simulation.advance(steps).map_err(|source| self.stopped(source))?;
             (left, *taken) = (left - steps, *taken + steps);
-            let ending = rules.ending(&self.simulation);
+            let acted = self.openings.act(&mut self.simulation);
+            acted.map_err(|source| RunError::inlet(&stage.name, source))?;
+            let ending = rules.ending(&self.simulation, &self.openings);
             if ending.is_some() || left == 0 {
                 break ending;
             }
@@ -181,7 +188,8 @@ impl Session {
 
     /// One row of the time series: the present state.
     pub fn row(&self) -> Vec<f64> {
-        self.measure.row(&self.scenario, &self.simulation, self.stage() + 1, self.start_lengths)
+        let (stage, openings) = (self.stage() + 1, &self.openings);
+        self.measure.row(&self.scenario, &self.simulation, openings, stage, self.start_lengths)
     }
 
     /// Sets the number of threads; as many as there are processors and work for them where `None`. Results do not depend
@@ -190,7 +198,10 @@ impl Session {
     /// # Errors
     /// No thread, or more than the system gives.
     pub fn set_threads(&mut self, threads: Option<usize>) -> Result<(), RunError> {
-        let threads = threads.unwrap_or_else(|| sensible_threads(self.simulation.particles().len()));
+        let threads = threads.unwrap_or_else(|| {
+            let expected = self.scenario.expected_particles();
+            sensible_threads(self.simulation.particles().len().max(expected))
+        });
         let stage = self.scenario.stages[self.stage()].name.clone();
         self.simulation.set_threads(threads).map_err(|source| RunError::Switch { stage, source })
     }

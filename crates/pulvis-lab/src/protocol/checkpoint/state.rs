@@ -1,4 +1,4 @@
-//! The state of a simulation as version 2 of the format has it.
+//! The state of a simulation as version 3 of the format has it.
 //!
 //! [`State`] may change with the engine; what stands in files may not. The conversions list every field, so that the compiler
 //! asks about each new one: another version of the format is due then.

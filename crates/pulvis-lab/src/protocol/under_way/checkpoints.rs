@@ -12,6 +12,7 @@ use crate::protocol::error::RunError;
 use crate::protocol::folder::{LIST, OutputFolder};
 use crate::protocol::kept_rows::KeptRows;
 use crate::protocol::measure::Measure;
+use crate::protocol::openings::Openings;
 use crate::protocol::pace::Due;
 use crate::protocol::run::{PictureOptions, StageResult, drop_later};
 use crate::protocol::snapshots::Snapshots;
@@ -56,6 +57,7 @@ impl<'a> Run<'a> {
             watch,
             walls_arrive: true,
             measure,
+            openings: Openings::new(scenario, Some(&record.openings)),
             writer,
             rows,
             snapshots: record.frames.map(frames).transpose()?,
@@ -115,6 +117,7 @@ impl<'a> Run<'a> {
             watch: _,
             walls_arrive: _,
             measure,
+            openings,
             writer,
             rows: _,
             snapshots,
@@ -138,6 +141,7 @@ impl<'a> Run<'a> {
             frames_due: frames_due.as_ref().map_or(0, Due::count),
             checkpoints_due: checkpoints_due.as_ref().map_or(0, Due::count),
             reference: measure.reference(),
+            openings: openings.record(),
             series: (series.bytes, series.hash),
             frames: snapshots.as_ref().map(Snapshots::position),
             files: output.names().to_vec(),
