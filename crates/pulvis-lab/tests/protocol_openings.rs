@@ -22,7 +22,7 @@ density = "2500 kg/m^3"
 [contacts.grain-grain]
 normal = { law = "linear", k = "2000 N/m" }
 viscosity = { law = "constant", gamma_0 = "5e-3 kg/s" }
-sliding = { law = "spring", k = "500 N/m", mu_d = 0.3 }
+sliding = { law = "spring-slider", kt = "500 N/m", mu = 0.3 }
 
 [[inlets]]
 name = "stream"
@@ -83,7 +83,7 @@ fn what_comes_in_is_what_is_there_and_what_has_left_and_the_ledger_closes() {
     // 20000 1/s for 20 ms, up to one interval of 2 x 0.45 mm over (1 m/s + 0.1 m/s).
     let come = *number_in.last().unwrap();
     assert!(come <= 400.0 && come >= 400.0 - 20.0, "{come}");
-    assert!(*number_out.last().unwrap() > 100.0, "{number_out:?}");
+    assert!(*number_out.last().unwrap() > 50.0, "{number_out:?}");
     let (mass_in, mass_out) = (*column("mass_stream").last().unwrap(), *column("mass_floor").last().unwrap());
     let classes = |name: &str, opening: &str| -> f64 {
         [1, 2].map(|class| *column(&format!("{name}_{opening}_class_{class}")).last().unwrap()).iter().sum()
@@ -110,14 +110,18 @@ fn what_comes_in_is_what_is_there_and_what_has_left_and_the_ledger_closes() {
 }
 
 #[test]
-fn particles_in_free_flight_carry_out_the_momentum_that_they_brought_and_that_of_gravity() {
+fn particles_in_free_flight_carry_out_the_energy_that_they_brought_and_that_of_their_fall() {
     // A narrow and slow rain without contacts: every particle falls from where it came in.
-    let text = changed(&[("\"20000 1/s\"", "\"300 1/s\""), ("standard_deviation = \"10 cm/s\", ", "")]);
+    let text = changed(&[
+        ("\"20 ms\"", "\"60 ms\""),
+        ("\"20000 1/s\"", "\"300 1/s\""),
+        ("standard_deviation = \"10 cm/s\", ", ""),
+    ]);
     let folder = tempfile::tempdir().unwrap();
     run(&scenario(&text), folder.path());
     let series = Series::read(folder.path());
     let last = |name: &str| *series.column(name).last().unwrap();
-    assert!(last("number_floor") >= 2.0 && last("contacts") == 0.0);
+    assert!(last("number_floor") >= 10.0 && last("contacts") == 0.0);
     // v^2 = v0^2 + 2 g h with h between 14 mm and 18 mm, and up to 50 steps beyond the plane.
     let of_one = |name: &str| 2.0 * last(&format!("energy_{name}")) / last(&format!("mass_{name}"));
     // Rotation adds 2/5 (w a)^2, below 2/5 (50 x 0.45e-3)^2 = 2e-4.
@@ -211,22 +215,15 @@ until = { time = "20 ms" }"#;
 #[test]
 fn a_branch_goes_on_with_the_inlets_and_counters_of_its_run() {
     let place = tempfile::tempdir().unwrap();
-    let [whole, stopped, branched] = ["whole", "stopped", "branched"].map(|name| place.path().join(name));
-    let text = changed(&[("\"20 ms\"", "\"6 ms\"")]);
+    let [whole, branched] = ["whole", "branched"].map(|name| place.path().join(name));
+    let second = "until = { time = \"3 ms\" }\n[[stages]]\nname = \"on\"\nuntil = { time = \"3 ms\" }";
+    let text = changed(&[
+        ("until = { time = \"20 ms\" }", second),
+        ("vtk = false", "vtk = false\ncheckpoints = { stage_ends = true }"),
+    ]);
     run(&scenario(&text), &whole);
-    let mut looks = 0;
-    let stop = AtomicBool::new(false);
-    let mut watch = |progress: &pulvis_lab::protocol::Progress| {
-        looks += u32::from(progress.ending.is_none());
-        stop.fetch_or(progress.time > 2e-3, Ordering::Relaxed);
-    };
-    let summary = run_with(&scenario(&text), &options(&stopped), &stop, &mut watch).unwrap();
-    // Without a look in the first 2 ms the run has ended, and there is nothing to branch from.
-    if !summary.interrupted() {
-        return;
-    }
     let file = place.path().join("branch.toml");
-    let branch = "start_from = \"stopped\"\n[[stages]]\nname = \"on\"\nuntil = { time = \"10 ms\" }\n[output]\ntimeseries = { interval = \"1 ms\" }\nplots = false\nvtk = false\n";
+    let branch = "start_from = { run = \"whole\", stage = \"flow\" }\n[[stages]]\nname = \"on\"\nuntil = { time = \"3 ms\" }\n[output]\ntimeseries = { interval = \"1 ms\" }\nplots = false\nvtk = false\n";
     fs::write(&file, branch).unwrap();
     run(&load_scenario(&file, &[]).unwrap(), &branched);
     let [expected, found] = [&whole, &branched].map(|folder| Series::read(folder));
@@ -239,7 +236,9 @@ fn a_branch_goes_on_with_the_inlets_and_counters_of_its_run() {
             compared += 1;
         }
     }
-    assert!(compared > 5, "{compared}");
+    assert!(compared >= 15, "{compared}");
+    let come = found.column("number_stream");
+    assert!(come[0] > 30.0 && come.last().unwrap() > &(come[0] + 30.0), "{come:?}");
 }
 
 #[test]
@@ -308,7 +307,7 @@ fn inlets_behind_walls_and_rates_that_nothing_can_leave_with_are_refused_before_
 fn seeds_make_other_particles_and_those_of_an_inlet_stay_with_it() {
     let radii = |text: &str| -> Vec<f64> {
         let mut session = Session::new(Scenario::from_str("test.toml", text).unwrap()).unwrap();
-        session.advance(600, false).unwrap();
+        session.advance(5000, false).unwrap();
         let particles = session.simulation().particles();
         particles.rows_by_id().into_iter().map(|row| particles.radii()[row]).collect()
     };
