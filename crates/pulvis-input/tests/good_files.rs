@@ -355,3 +355,32 @@ fn walls_with_edges_and_meshes_read_back_with_what_they_were_made_of() {
     let refused = Scenario::from_str("run.toml", &other).unwrap_err().to_string();
     assert!(refused.contains("paddle.obj has changed: its hash is"), "{refused}");
 }
+
+#[test]
+fn inlets_and_outlets_have_what_their_keys_say_and_regions_end_with_the_box() {
+    let scenario = good("inlets.toml");
+    assert!(scenario.particles.is_empty());
+    assert_eq!(scenario.openings().collect::<Vec<_>>(), ["rain", "jet", "hole", "above"]);
+    let [rain, jet] = &scenario.inlets[..] else { panic!("two inlets") };
+    let Region::Box(extent) = rain.region else { panic!("a layer ends with the box") };
+    assert_eq!(extent.lower.to_array(), [0.0, 0.0, 12e-3]);
+    assert_eq!(extent.upper.to_array(), [10e-3, 10e-3, 16e-3]);
+    assert_eq!((rain.rate, rain.total), (Amount::Number(1000.0), Some(Amount::Number(40.0))));
+    assert_eq!((rain.schedule.start, rain.schedule.stop), (0.0, f64::INFINITY));
+    assert!(rain.schedule.takes_in("fill") && !rain.schedule.takes_in("drain"));
+    assert_eq!((jet.rate, jet.total), (Amount::Mass(1e-3), Some(Amount::Mass(1e-4))));
+    assert_eq!((jet.seed, jet.interval, jet.max_delay), (Some(12), Some(2e-3), None));
+    assert_eq!(jet.velocity.to_array(), [0.0, 1.0, 0.0]);
+    let [hole, above] = &scenario.outlets[..] else { panic!("two outlets") };
+    assert_eq!((hole.steps, above.steps), (20, 50));
+    let OutletZone::Beyond { normal, .. } = above.zone else { panic!("a plane") };
+    assert_eq!(normal.to_array(), [0.0, 0.0, 1.0]);
+    assert_eq!(
+        scenario.stages[0].until.passed,
+        Some(PassedRule { opening: 0, amount: Amount::Number(40.0) })
+    );
+    assert_eq!(scenario.stages[1].until.passed.map(|rule| rule.opening), Some(2));
+    // In the hands of another run, what is open stays open and what is shut stays shut.
+    let later = scenario.as_in_stage(1);
+    assert!(!later.inlets[0].schedule.takes_in("anything") && later.inlets[1].schedule.takes_in("anything"));
+}

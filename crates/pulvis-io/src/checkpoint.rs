@@ -20,8 +20,8 @@ use std::io::{self, BufWriter, Read, Write};
 use std::path::Path;
 use twox_hash::XxHash3_64;
 
-/// The version of the format that this program writes, and the only one that it reads. Version 3 came with walls that turn
-/// and programs of parameters.
+/// The version of the format that this program writes, and the only one that it reads. Version 3 came with walls that turn,
+/// inlets and outlets, and programs of parameters.
 pub const VERSION: u32 = 3;
 
 const HEADING: &str = "Pulvis checkpoint ";

@@ -1,13 +1,11 @@
 //! Random positions without overlap.
 
-use std::collections::HashMap;
-
 use pulvis_boundary::{Cuboid, Domain};
 use pulvis_math::{Vector3, elementary};
 use rand::RngExt;
 use thiserror::Error;
 
-use super::Random;
+use super::{OccupiedSpace, Random};
 
 /// There is no room for a sphere.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -43,7 +41,7 @@ pub fn random_positions(
     random: &mut Random,
 ) -> Result<Vec<Vector3>, NoRoom> {
     let largest = radii.iter().chain(present.iter().map(|(_, radius)| radius)).copied().fold(0.0, f64::max);
-    let mut occupied = Occupied::new(2.0 * largest.max(f64::MIN_POSITIVE), *domain);
+    let mut occupied = OccupiedSpace::new(2.0 * largest.max(f64::MIN_POSITIVE), *domain);
     for &(centre, radius) in present {
         occupied.add(centre, radius);
     }
@@ -83,60 +81,6 @@ fn draw(region: &Cuboid, domain: &Domain, radius: f64, random: &mut Random) -> O
         *centre.component_mut(axis) = low + (high - low) * drawn;
     }
     Some(centre)
-}
-
-/// Cells on either side of the origin that have numbers.
-const MOST_CELLS: f64 = 1e18;
-
-/// Spheres found by the cell that their centre lies in.
-struct Occupied {
-    width: f64,
-    domain: Domain,
-    cells: HashMap<[i64; 3], Vec<(Vector3, f64)>>,
-}
-
-impl Occupied {
-    fn new(width: f64, domain: Domain) -> Self {
-        Self { width, domain, cells: HashMap::new() }
-    }
-
-    fn cell(&self, position: Vector3) -> [i64; 3] {
-        // Far beyond all digits of a position; a neighbour of the last cell still has a number.
-        [0, 1, 2].map(|axis| (position[axis] / self.width).floor().clamp(-MOST_CELLS, MOST_CELLS) as i64)
-    }
-
-    fn add(&mut self, centre: Vector3, radius: f64) {
-        let centre = self.domain.wrapped(centre);
-        let cell = self.cell(centre);
-        self.cells.entry(cell).or_default().push((centre, radius));
-    }
-
-    fn is_free(&self, centre: Vector3, radius: f64) -> bool {
-        // The images of the centre that can see spheres across a periodic boundary.
-        let shifts = |axis: usize| match self.domain.period(axis) {
-            Some(period) => vec![-period, 0.0, period],
-            None => vec![0.0],
-        };
-        let centre = self.domain.wrapped(centre);
-        let (xs, ys, zs) = (shifts(0), shifts(1), shifts(2));
-        xs.iter().all(|&x| {
-            ys.iter().all(|&y| zs.iter().all(|&z| self.is_free_image(centre + Vector3::new(x, y, z), radius)))
-        })
-    }
-
-    fn is_free_image(&self, centre: Vector3, radius: f64) -> bool {
-        let [x, y, z] = self.cell(centre);
-        let overlaps = |(other, size): &(Vector3, f64)| {
-            let apart = radius + size;
-            (*other - centre).norm_squared() < apart * apart
-        };
-        (x - 1..=x + 1).all(|x| {
-            (y - 1..=y + 1).all(|y| {
-                (z - 1..=z + 1)
-                    .all(|z| self.cells.get(&[x, y, z]).is_none_or(|cell| !cell.iter().any(overlaps)))
-            })
-        })
-    }
 }
 
 #[cfg(test)]

@@ -99,6 +99,41 @@ impl Region {
         }
     }
 
+    /// The part of the region in which the centres of spheres of a `radius` [m] lie that lie whole in the region; `None`
+    /// where no such sphere fits in. Directions in which the region takes up a whole period have no ends.
+    pub fn inset(&self, radius: f64, domain: &Domain) -> Option<Self> {
+        let shortened = |axis: usize, lower: f64, upper: f64| {
+            if domain.period(axis).is_some_and(|period| upper - lower >= period) {
+                return Some([lower, upper]);
+            }
+            let (lower, upper) = (lower + radius, upper - radius);
+            (lower <= upper).then_some([lower, upper])
+        };
+        match *self {
+            Self::Box(Cuboid { mut lower, mut upper }) => {
+                for axis in 0..3 {
+                    let ends = shortened(axis, lower[axis], upper[axis])?;
+                    [*lower.component_mut(axis), *upper.component_mut(axis)] = ends;
+                }
+                Some(Self::Box(Cuboid { lower, upper }))
+            }
+            Self::Layer { axis, lower, upper } => {
+                let [lower, upper] = shortened(axis, lower, upper)?;
+                Some(Self::Layer { axis, lower, upper })
+            }
+            Self::Sphere { centre, radius: outer } => {
+                (outer >= radius).then_some(Self::Sphere { centre, radius: outer - radius })
+            }
+            Self::Cylinder { ends: [start, end], radius: outer } => {
+                let length = (end - start).norm();
+                let margin = (end - start) * (radius / length);
+                let ends = [start + margin, end - margin];
+                let fits = outer >= radius && length >= 2.0 * radius;
+                fits.then_some(Self::Cylinder { ends, radius: outer - radius })
+            }
+        }
+    }
+
     /// Volume [m³], where directions without an end have these `lengths` [m].
     pub fn volume(&self, lengths: [f64; 3]) -> f64 {
         use std::f64::consts::PI;

@@ -163,3 +163,26 @@ fn regions_of_a_sheared_cell_take_images_along_its_edges() {
         assert!(ball.contains(corner(-0.05) + edge, &domain), "{edge:?}");
     }
 }
+
+#[test]
+fn spheres_whose_centres_lie_in_the_inset_lie_whole_in_the_region_and_touch_its_boundary() {
+    let unit = Vector3::new(1.0, 1.0, 1.0);
+    let open = Domain::unbounded();
+    let block = Region::Box(Cuboid { lower: Vector3::zero(), upper: unit });
+    let inner = Region::Box(Cuboid { lower: unit * 0.25, upper: unit * 0.75 });
+    assert_eq!(block.inset(0.25, &open), Some(inner));
+    assert_eq!(block.inset(0.51, &open), None);
+    // Along a whole period there are no ends.
+    let periodic = Domain::periodic(Vector3::zero(), unit, [true, false, false]);
+    let Some(Region::Box(Cuboid { lower, upper })) = block.inset(0.25, &periodic) else { panic!("no room") };
+    assert_eq!((lower, upper), (Vector3::new(0.0, 0.25, 0.25), Vector3::new(1.0, 0.75, 0.75)));
+    let ball = Region::Sphere { centre: unit, radius: 2.0 };
+    assert_eq!(ball.inset(0.5, &open), Some(Region::Sphere { centre: unit, radius: 1.5 }));
+    assert_eq!(ball.inset(2.5, &open), None);
+    let rod = Region::Cylinder { ends: [Vector3::zero(), Vector3::new(0.0, 0.0, 4.0)], radius: 1.0 };
+    let ends = [Vector3::new(0.0, 0.0, 0.5), Vector3::new(0.0, 0.0, 3.5)];
+    assert_eq!(rod.inset(0.5, &open), Some(Region::Cylinder { ends, radius: 0.5 }));
+    assert_eq!(rod.inset(1.5, &open), None);
+    let layer = Region::Layer { axis: 1, lower: 0.0, upper: 1.0 };
+    assert_eq!(layer.inset(0.4, &open), Some(Region::Layer { axis: 1, lower: 0.4, upper: 0.6 }));
+}

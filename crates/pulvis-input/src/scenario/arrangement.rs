@@ -7,10 +7,10 @@ use crate::list::{List, Vector};
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use crate::shape::{Integer, Text};
+use crate::shape::{Choice, Integer, Text};
 use pulvis_boundary::Cuboid;
 use pulvis_math::{Dimension, Vector3};
-use pulvis_packing::Lattice;
+use pulvis_packing::{Growth, Lattice};
 use std::path::{Path, PathBuf};
 
 /// Where the particles of a group start.
@@ -20,6 +20,13 @@ pub enum Arrangement {
     Lattice(Lattice),
     /// At random, whole and without overlap, in this block.
     Random(Cuboid),
+    /// Touching each other in an aggregate that has grown at random.
+    Aggregate {
+        /// Its centre of mass [m].
+        centre: Vector3,
+        /// How it has grown.
+        growth: Growth,
+    },
     /// As a file says.
     File {
         /// The absolute path of the file.
@@ -47,9 +54,14 @@ pub(super) const MOST_PARTICLES: i64 = 10_000_000_000;
 
 /// Reads `[particles.arrangement]`; paths of files are relative to `folder`.
 pub(super) fn read_arrangement(mut table: TableReader<'_>, folder: &Path) -> Result<Arrangement, Reported> {
-    let read = match table.selector("kind", &["lattice", "random", "file", "list"])? {
+    let read = match table.selector("kind", &["lattice", "random", "aggregate", "file", "list"])? {
         "lattice" => read_lattice(&mut table).map(Arrangement::Lattice),
         "random" => read_extent(&mut table).map(Arrangement::Random),
+        "aggregate" => {
+            let centre = table.required("centre", Vector::of(Dimension::LENGTH));
+            let growth = table.required("growth", Choice(&Growth::ALL));
+            centre.and_then(|centre| Ok(Arrangement::Aggregate { centre: centre.into(), growth: growth? }))
+        }
         "file" => read_file(&mut table, folder),
         _ => table
             .required("positions", List::of(Vector::of(Dimension::LENGTH)).at_least(1))

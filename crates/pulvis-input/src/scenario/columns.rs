@@ -1,6 +1,5 @@
 //! Further quantities of particles: charge, temperature and whatever else.
 
-use super::particles::ParticleGroup;
 use crate::any_quantity::AnyQuantity;
 use crate::context::Reported;
 use crate::problem::Problem;
@@ -61,25 +60,25 @@ pub(super) fn read_columns(
     Ok(columns)
 }
 
-/// Refuses a group of particles that lacks a quantity that a law reads, or has one that the law does not take.
+/// Refuses `particles` or `inlets` that lack a quantity that a law reads, or have one that the law does not take.
 pub(super) fn needs_quantity(
     root: &TableReader<'_>,
-    group: &ParticleGroup,
+    (key, columns): (&str, &[ParticleColumn]),
     quantity: &Parameter,
 ) -> Result<(), Reported> {
     let (name, unit) = (quantity.name, quantity.unit());
-    let Some(column) = group.columns.iter().find(|column| column.name == name) else {
-        let expected = format!("the {} [{unit}] in [particles.columns], which a law reads", quantity.meaning);
-        let problem = Problem::MissingKey { key: format!("particles.columns.{name}"), expected };
-        return Err(root.refuse("particles", problem));
+    let Some(column) = columns.iter().find(|column| column.name == name) else {
+        let expected = format!("the {} [{unit}] in [{key}.columns], which a law reads", quantity.meaning);
+        let problem = Problem::MissingKey { key: format!("{key}.columns.{name}"), expected };
+        return Err(root.refuse(key, problem));
     };
     let of_kind = matches!(quantity.kind, Kind::Number { dimension, .. } if dimension == column.dimension);
     if of_kind && quantity.check(&Value::Number(column.value)).is_ok() {
         return Ok(());
     }
-    let found = format!("`{name}` of particles is {:?} {}", column.value, column.dimension.unit());
+    let found = format!("`{name}` of {key} is {:?} {}", column.value, column.dimension.unit());
     let expected = format!("the {} in {unit}, {}", quantity.meaning, quantity.allowed());
-    Err(root.refuse("particles", Problem::rule(found, expected)))
+    Err(root.refuse(key, Problem::rule(found, expected)))
 }
 
 fn read_column(table: &mut TableReader<'_>, name: &str) -> Result<ParticleColumn, Reported> {

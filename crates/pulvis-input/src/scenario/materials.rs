@@ -73,3 +73,19 @@ pub(super) fn read_material_name(
     let index = names.iter().position(|known| *known == name);
     index.ok_or_else(|| table.refuse(key, Problem::unknown_choice(name, &names)))
 }
+
+/// The same of a material that particles are made of, which has a density.
+pub(super) fn read_material_with_density(
+    table: &mut TableReader<'_>,
+    materials: &[Material],
+) -> Result<usize, Reported> {
+    let index = read_material_name(table, "material", materials)?;
+    match materials.get(index) {
+        Some(Material { name, density: None, .. }) => {
+            let found = format!("{name} has no density");
+            let expected = format!("`density` in [materials.{name}], because particles are made of it");
+            Err(table.refuse("material", Problem::rule(found, expected)))
+        }
+        _ => Ok(index),
+    }
+}

@@ -41,10 +41,13 @@ mod columns;
 mod contacts;
 mod controls;
 mod domain;
+mod inlets;
 mod limits;
 mod materials;
 mod mesh_file;
 mod observers;
+mod openings;
+mod outlets;
 mod output;
 mod particles;
 mod placement;
@@ -71,10 +74,13 @@ pub use axis::{Axis, BoxFace, Side};
 pub use columns::ParticleColumn;
 pub use contacts::Contact;
 pub use controls::WallControl;
+pub use inlets::Inlet;
 pub use limits::Limits;
 pub use materials::Material;
 pub use mesh_file::MeshFileError;
 pub use observers::{ObservedQuantity, Observer};
+pub use openings::Schedule;
+pub use outlets::{Outlet, OutletZone};
 pub use output::{CheckpointPlan, Dimensionless, Interval, OutputPlan, Snapshots};
 pub use particles::{ParticleGroup, VelocityPlan};
 pub use points::PointsError;
@@ -84,11 +90,11 @@ pub use pulvis_boundary::{
     Background, CellControl, CellMotion, Cone, Cuboid, Cylinder, CylinderSide, Disk, Domain, Mesh, Plane,
     PlaneWithHole, Region, TemperatureProgram, Tube, UpperTriangular, WallMotion, WallShape,
 };
-pub use pulvis_packing::{GasVelocities, Lattice, RadiusDistribution};
+pub use pulvis_packing::{Amount, GasVelocities, Growth, Lattice, RadiusDistribution};
 pub use stages::Stage;
 pub use start::StartFrom;
 pub use time::TimeStep;
-pub use until::{Crossing, ShearRule, StopRules, StrainRule, StressRule};
+pub use until::{Crossing, PassedRule, ShearRule, StopRules, StrainRule, StressRule};
 pub use wall_mesh::MeshSource;
 pub use walls::Wall;
 
@@ -120,8 +126,12 @@ pub struct Scenario {
     pub background: Background,
     /// Temperature over time, from the start of the first stage on; where it is given.
     pub temperature: Option<TemperatureProgram>,
-    /// The groups of particles, at least one.
+    /// The groups of particles; at least one, unless there are inlets.
     pub particles: Vec<ParticleGroup>,
+    /// Where particles come in during the run.
+    pub inlets: Vec<Inlet>,
+    /// Where particles leave during the run.
+    pub outlets: Vec<Outlet>,
     /// Lower and upper corner of the box, if there is one; its walls are among [`Self::walls`].
     pub enclosure: Option<Cuboid>,
     /// All plane walls; those of the box come first. At the start all of them are fixed.
@@ -210,6 +220,11 @@ impl Scenario {
     pub fn as_in_stage(&self, index: usize) -> Self {
         let mut scenario = Self { stages: Vec::new(), ..self.clone() };
         if let Some(stage) = self.stages.get(index) {
+            // The names of stages mean nothing elsewhere: what is open stays open, what is shut stays shut.
+            let inlets = scenario.inlets.iter_mut().map(|inlet| &mut inlet.schedule);
+            for schedule in inlets.chain(scenario.outlets.iter_mut().map(|outlet| &mut outlet.schedule)) {
+                schedule.stages = (!schedule.takes_in(&stage.name)).then(Vec::new);
+            }
             scenario.contacts = stage.last_contacts().to_vec();
             (scenario.background, scenario.time) = (stage.last_background(), stage.time);
         }
@@ -236,6 +251,35 @@ impl Scenario {
     /// The index of a wall.
     pub fn wall(&self, name: &str) -> Option<usize> {
         self.walls.iter().position(|wall| wall.name == name)
+    }
+
+    /// The further quantities of all particles, as the first group or the first inlet has them.
+    pub fn columns(&self) -> &[ParticleColumn] {
+        let group = self.particles.first().map(|group| &group.columns[..]);
+        group.or(self.inlets.first().map(|inlet| &inlet.columns[..])).unwrap_or_default()
+    }
+
+    /// The further quantities of all groups and inlets of a material.
+    pub fn columns_of(&self, material: usize) -> impl Iterator<Item = &ParticleColumn> {
+        let groups = self.particles.iter().filter(move |group| group.material == material);
+        let inlets = self.inlets.iter().filter(move |inlet| inlet.material == material);
+        groups.flat_map(|group| &group.columns).chain(inlets.flat_map(|inlet| &inlet.columns))
+    }
+
+    /// The number of particles of all groups, and of those that inlets with a total number bring.
+    pub fn expected_particles(&self) -> usize {
+        let brought = self.inlets.iter().map(|inlet| match inlet.total {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a whole number up to 1e10
+            Some(Amount::Number(number)) => number as usize,
+            _ => 0,
+        });
+        self.particle_count() + brought.sum::<usize>()
+    }
+
+    /// The names of inlets, then those of outlets.
+    pub fn openings(&self) -> impl Iterator<Item = &str> {
+        let inlets = self.inlets.iter().map(|inlet| inlet.name.as_str());
+        inlets.chain(self.outlets.iter().map(|outlet| outlet.name.as_str()))
     }
 
     /// The number of particles of all groups.

@@ -2,7 +2,7 @@
 
 use super::arrangement::{Arrangement, MOST_PARTICLES, read_arrangement};
 use super::columns::{ParticleColumn, read_columns};
-use super::materials::{Material, read_material_name};
+use super::materials::{Material, read_material_with_density};
 use super::radius::read_radius;
 use crate::collision::{Sphere, unfit_for_numbers};
 use crate::context::{Location, Reported};
@@ -48,14 +48,14 @@ pub struct VelocityPlan {
 /// A group and the place where its arrangement stands, for checks that need the walls.
 pub(super) type PlacedGroup = (ParticleGroup, Location);
 
-/// Reads `[[particles]]`.
+/// Reads `[[particles]]`; there may be none where inlets bring them.
 pub(super) fn read_particles(
     root: &mut TableReader<'_>,
     materials: &[Material],
     folder: &Path,
 ) -> Result<Vec<PlacedGroup>, Reported> {
     let tables = root.tables("particles")?;
-    if tables.is_empty() {
+    if tables.is_empty() && !root.keys().contains(&"inlets") {
         return Err(root.refuse("particles", no_tables(root, "particles")));
     }
     let mut groups: Vec<Result<PlacedGroup, Reported>> = Vec::with_capacity(tables.len());
@@ -87,15 +87,7 @@ fn read_group(
     folder: &Path,
     first: Option<&[ParticleColumn]>,
 ) -> Result<PlacedGroup, Reported> {
-    let material =
-        read_material_name(&mut table, "material", materials).and_then(|index| match materials.get(index) {
-            Some(Material { name, density: None, .. }) => {
-                let found = format!("{name} has no density");
-                let expected = format!("`density` in [materials.{name}], because particles are made of it");
-                Err(table.refuse("material", Problem::rule(found, expected)))
-            }
-            _ => Ok(index),
-        });
+    let material = read_material_with_density(&mut table, materials);
     let count = table.optional("count", Integer::between(1, MOST_PARTICLES));
     let place = table.location("arrangement");
     let arrangement = table.required_table("arrangement").and_then(|table| read_arrangement(table, folder));
@@ -121,15 +113,7 @@ fn read_group(
         (Err(reported), _) | (_, &Err(reported)) => Err(reported),
     };
     if let (Ok(material), Ok(Some(radius))) = (material, &radius) {
-        let density =
-            materials.get(material).and_then(|material| material.density.filter(|value| value.is_finite()));
-        let (smallest, largest) = radius.limits();
-        for radius in [smallest, largest] {
-            let mass = density.unwrap_or(1.0) * 4.0 / 3.0 * PI * elementary::powi(radius, 3);
-            if let Some(problem) = unfit_for_numbers(&Sphere { radius, mass }) {
-                return Err(table.refuse("radius", problem));
-            }
-        }
+        check_masses(&table, materials.get(material), radius)?;
     }
     if let (Ok(Arrangement::Random(block)), Ok(count), Ok(Some(radius))) = (&arrangement, &count, &radius) {
         fitting_block(&table, block, *count, radius.limits().0)?;
@@ -138,6 +122,23 @@ fn read_group(
     let (material, count, radius) = (material?, count?, radius?);
     let (arrangement, velocity, columns) = (arrangement?, velocity?, columns?);
     Ok((ParticleGroup { material, count, radius, arrangement, velocity, columns }, place))
+}
+
+/// Refuses radii of which the engine cannot compute.
+pub(super) fn check_masses(
+    table: &TableReader<'_>,
+    material: Option<&Material>,
+    radius: &RadiusDistribution,
+) -> Result<(), Reported> {
+    let density = material.and_then(|material| material.density.filter(|value| value.is_finite()));
+    let (smallest, largest) = radius.limits();
+    for radius in [smallest, largest] {
+        let mass = density.unwrap_or(1.0) * 4.0 / 3.0 * PI * elementary::powi(radius, 3);
+        if let Some(problem) = unfit_for_numbers(&Sphere { radius, mass }) {
+            return Err(table.refuse("radius", problem));
+        }
+    }
+    Ok(())
 }
 
 /// The number of particles, which has to fit the arrangement.
@@ -167,8 +168,12 @@ fn fitting_count(
                 given => Ok(given.unwrap_or(sites)),
             }
         }
-        Arrangement::Random(_) => given.ok_or_else(|| {
-            let expected = "the number of particles of a random arrangement".to_owned();
+        Arrangement::Random(_) | Arrangement::Aggregate { .. } => given.ok_or_else(|| {
+            let what = match arrangement {
+                Arrangement::Random(_) => "a random arrangement",
+                _ => "an aggregate",
+            };
+            let expected = format!("the number of particles of {what}");
             table.refuse("count", Problem::MissingKey { key: "count".to_owned(), expected })
         }),
     }

@@ -61,6 +61,10 @@ fn points(group: &ParticleGroup) -> Vec<Point> {
         Arrangement::File { grains, .. } => {
             grains.iter().enumerate().map(|(number, grain)| centre(number, grain.position)).collect()
         }
+        // Where its particles are shows when it has grown.
+        Arrangement::Aggregate { centre: at, .. } => {
+            vec![Point { what: "the centre of the aggregate,".to_owned(), at: *at, slack: 0.0 }]
+        }
         Arrangement::List(positions) => {
             positions.iter().enumerate().map(|(number, at)| centre(number, *at)).collect()
         }

@@ -4,6 +4,7 @@ use super::axis::{Axis, BoxFace, Side};
 use super::cell::read_cell;
 use super::contacts::Contact;
 use super::controls::{WallControl, read_control};
+use super::openings::Opening;
 use super::particles::no_tables;
 use super::programs::{PlannedPrograms, Programs, read_programs};
 use super::region::read_region;
@@ -87,6 +88,7 @@ pub(super) fn read_stages(
     root: &mut TableReader<'_>,
     domain: Option<&Domain>,
     walls: &[Wall],
+    openings: &[Opening],
     time: TimeStep,
 ) -> Result<Vec<PlannedStage>, Reported> {
     let tables = root.tables("stages")?;
@@ -95,7 +97,7 @@ pub(super) fn read_stages(
     }
     let mut stages: Vec<PlannedStage> = Vec::new();
     let controls = vec![WallControl::Motion(WallMotion::Fixed); walls.len()];
-    let mut now = Now { domain, controls, cell: CellMotion::default(), time };
+    let mut now = Now { domain, openings, controls, cell: CellMotion::default(), time };
     let mut failure = None;
     for table in tables {
         match read_stage(table, walls, &mut now, &stages) {
@@ -109,6 +111,8 @@ pub(super) fn read_stages(
 /// What the stages before have left behind.
 struct Now<'a> {
     domain: Option<&'a Domain>,
+    /// The inlets and outlets of the scenario.
+    openings: &'a [Opening],
     controls: Vec<WallControl>,
     cell: CellMotion,
     time: TimeStep,
@@ -127,7 +131,7 @@ fn read_stage(
         }
         Ok(name)
     });
-    let until = read_until(&mut table);
+    let until = read_until(&mut table, now.openings);
     let remove = read_region(&mut table, "remove");
     let form_bonds = read_formation(&mut table);
     let controls = read_controls(&mut table, walls, now);

@@ -2,14 +2,16 @@
 //! they are written.
 
 use super::axis::{Axis, AxisShape};
+use super::openings::Opening;
 use super::resolved::writer::{Writer, number, quantity, text};
 use crate::context::Reported;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use crate::shape::Choice;
+use crate::shape::{Choice, Integer, Name};
 use pulvis_boundary::UpperTriangular;
 use pulvis_math::Dimension;
+use pulvis_packing::Amount;
 
 /// A stage ends as soon as any of these holds; at least one is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,6 +31,17 @@ pub struct StopRules {
     pub shear_strain: Option<ShearRule>,
     /// The stress on a pair of walls has been reached, or that of the cell along a periodic direction.
     pub stress: Option<StressRule>,
+    /// So much has passed an inlet or outlet.
+    pub passed: Option<PassedRule>,
+}
+
+/// So much has passed an inlet or outlet since the start of the run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PassedRule {
+    /// Index of the inlet, or that of the outlet plus the number of inlets.
+    pub opening: usize,
+    /// How much, greater than zero.
+    pub amount: Amount,
 }
 
 impl StopRules {
@@ -99,7 +112,7 @@ impl Crossing {
 }
 
 /// Reads `[stages.until]`; an absent table is an empty set of rules.
-pub(super) fn read_until(stage: &mut TableReader<'_>) -> Result<StopRules, Reported> {
+pub(super) fn read_until(stage: &mut TableReader<'_>, openings: &[Opening]) -> Result<StopRules, Reported> {
     let Some(mut table) = stage.optional_table("until")? else { return Ok(StopRules::default()) };
     let time = table.optional("time", QuantityRule::of(Dimension::TIME).above(0.0));
     let kinetic_to_elastic =
@@ -117,6 +130,9 @@ pub(super) fn read_until(stage: &mut TableReader<'_>) -> Result<StopRules, Repor
     let strain = table.optional_table("strain").and_then(|rule| rule.map(read_strain).transpose());
     let shear = table.optional_table("shear_strain").and_then(|rule| rule.map(read_shear).transpose());
     let stress = table.optional_table("stress").and_then(|rule| rule.map(read_stress).transpose());
+    let passed = table
+        .optional_table("passed")
+        .and_then(|rule| rule.map(|rule| read_passed(rule, openings)).transpose());
     let minimum_time = match (minimum_time, &kinetic_to_elastic, &time) {
         (Ok(Some(_)), Ok(None), _) => {
             let problem =
@@ -139,11 +155,12 @@ pub(super) fn read_until(stage: &mut TableReader<'_>) -> Result<StopRules, Repor
         strain: strain?,
         shear_strain: shear?,
         stress: stress?,
+        passed: passed?,
     })
 }
 
-/// Writes `[stages.until]`.
-pub(super) fn write_until(writer: &mut Writer, until: &StopRules) {
+/// Writes `[stages.until]`; `openings` are the names of inlets and outlets.
+pub(super) fn write_until(writer: &mut Writer, until: &StopRules, openings: &[&str]) {
     if let Some(time) = until.time {
         writer.key("time", quantity(time, Dimension::TIME));
     }
@@ -169,6 +186,52 @@ pub(super) fn write_until(writer: &mut Writer, until: &StopRules) {
         let crosses = text(rule.crosses.name());
         writer.key("stress", format!("{{ axis = {axis}, value = {value}, crosses = {crosses} }}"));
     }
+    if let Some(PassedRule { opening, amount }) = until.passed {
+        let name = text(openings.get(opening).unwrap_or(&""));
+        let amount = match amount {
+            Amount::Number(number) => format!("number = {number:.0}"),
+            Amount::Mass(mass) => format!("mass = {}", quantity(mass, Dimension::MASS)),
+        };
+        writer.key("passed", format!("{{ name = {name}, {amount} }}"));
+    }
+}
+
+fn read_passed(mut table: TableReader<'_>, openings: &[Opening]) -> Result<PassedRule, Reported> {
+    let names: Vec<&str> = openings.iter().map(|opening| opening.name.as_str()).collect();
+    if names.is_empty() {
+        let problem = Problem::rule("there is no inlet or outlet", "[[inlets]] or [[outlets]] to look at");
+        return Err(table.refuse("", problem));
+    }
+    let name = table.required("name", Name(&names));
+    let number = table.optional("number", Integer::between(1, 10_000_000_000));
+    let mass = table.optional("mass", QuantityRule::of(Dimension::MASS).above(0.0));
+    let amount = match (number?, mass?) {
+        #[allow(clippy::cast_precision_loss)] // far below 2^53
+        (Some(number), None) => Ok(Amount::Number(number as f64)),
+        (None, Some(mass)) => Ok(Amount::Mass(mass)),
+        (Some(_), Some(_)) => {
+            Err(table.refuse("mass", Problem::rule("given beside `number`", "only one of them")))
+        }
+        (None, None) => {
+            let expected = "how much has passed: `number` = 100 or `mass` = \"1 g\"".to_owned();
+            Err(table.refuse("number", Problem::MissingKey { key: "number".to_owned(), expected }))
+        }
+    };
+    let (name, amount) = (name?, amount?);
+    let index = names.iter().position(|known| *known == name).unwrap_or(0);
+    let never = match (amount, openings.get(index).and_then(|opening| opening.total)) {
+        (Amount::Number(number), Some(Amount::Number(total))) => number > total,
+        // The particle that would exceed a total mass does not come in.
+        (Amount::Mass(mass), Some(Amount::Mass(total))) => mass >= total,
+        _ => false,
+    };
+    if never {
+        let found = format!("the inlet {name} brings in less than that in all");
+        let expected = "`total_number` at most, or less than `total_mass`";
+        return Err(table.refuse("", Problem::rule(found, expected)));
+    }
+    table.finish();
+    Ok(PassedRule { opening: index, amount })
 }
 
 fn read_strain(mut table: TableReader<'_>) -> Result<StrainRule, Reported> {

@@ -1,14 +1,15 @@
 //! The walk over a scenario file, first as it stands, then once more for every stage that switches.
 
 use super::allow::read_allow;
-use super::columns::needs_quantity;
+use super::columns::{ParticleColumn, needs_quantity};
 use super::contacts::{Contact, MaterialUse, read_contacts};
 use super::domain::{read_background, read_domain};
 use super::limits::read_limits;
 use super::materials::{Material, read_materials};
 use super::observers::{check_discards, durations, read_observers};
+use super::openings::{Openings, read_openings};
 use super::output::read_output;
-use super::particles::{ParticleGroup, PlacedGroup, read_particles};
+use super::particles::{PlacedGroup, read_particles};
 use super::placement::check_placement;
 use super::programs::{ProgramState, Programs};
 use super::stages::{PlannedStage, Stage, read_stages};
@@ -30,7 +31,7 @@ use pulvis_math::Vector3;
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
-const KEYS: [&str; 18] = [
+const KEYS: [&str; 20] = [
     "title",
     "start_from",
     "seed",
@@ -42,6 +43,8 @@ const KEYS: [&str; 18] = [
     "background",
     "temperature",
     "particles",
+    "inlets",
+    "outlets",
     "box",
     "walls",
     "time",
@@ -86,36 +89,49 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     let known = domain.as_ref().map_or(None, Option::as_ref);
     let walls = read_walls(&mut root, &materials, known, folder);
     let groups = read_particles(&mut root, &materials, folder);
-    let stages = match (&walls, &time) {
-        (Ok(walls), Ok(time)) => read_stages(&mut root, known, &walls.walls, *time),
-        (&Err(reported), _) | (_, &Err(reported)) => Err(reported),
+    let enclosure = walls.as_ref().ok().and_then(|walls| walls.enclosure.as_ref());
+    let placed = groups.as_ref().ok().map(|groups| &groups[..]);
+    let openings = read_openings(&mut root, &materials, placed, known, enclosure);
+    let stages = match (&walls, &time, &openings) {
+        (Ok(walls), Ok(time), Ok(openings)) => {
+            read_stages(&mut root, known, &walls.walls, &openings.list(), *time)
+        }
+        (&Err(reported), ..) | (_, &Err(reported), _) | (.., &Err(reported)) => Err(reported),
     };
     let names: Option<Vec<&str>> =
         stages.as_ref().ok().map(|stages| stages.iter().map(|stage| stage.name.as_str()).collect());
-    let enclosure = walls.as_ref().ok().and_then(|walls| walls.enclosure.as_ref());
+    let openings = openings.and_then(|openings| {
+        openings.check_stages(&root, names.as_deref().unwrap_or_default())?;
+        Ok(openings)
+    });
     let observers = read_observers(&mut root, known, enclosure).and_then(|observers| {
         let durations = stages.as_ref().map_or_else(|_| vec![None], |stages| durations(stages));
         check_discards(&root, &observers, &durations)?;
+        openings.as_ref().map_or(Ok(()), |openings| openings.check_observers(&root, &observers))?;
         Ok(observers)
     });
     let output = read_output(&mut root, file, names.as_deref());
     let bodies = walls.and_then(|walls| {
         let groups = groups?;
         check_placement(&root, &groups, &walls.walls, known)?;
-        Ok((walls, groups))
+        Ok((walls, groups, openings?))
     });
-    let used = bodies.as_ref().map(|(walls, groups)| material_use(walls, groups)).ok();
+    let used = bodies.as_ref().map(|(walls, groups, openings)| material_use(walls, groups, openings)).ok();
     let temperature = read_temperature(&mut root);
-    let particles =
-        bodies.as_ref().map(|(_, groups)| groups.iter().map(|(group, _)| group).collect::<Vec<_>>());
-    let given = match (&particles, &temperature) {
-        (Ok(groups), Ok(temperature)) => Some(Given { groups, temperature: temperature.as_ref() }),
+    let columns = bodies.as_ref().map(|(_, groups, openings)| {
+        let groups = groups.iter().map(|(group, _)| ("particles", &group.columns[..]));
+        groups
+            .chain(openings.inlets.iter().map(|(inlet, _)| ("inlets", &inlet.columns[..])))
+            .collect::<Vec<_>>()
+    });
+    let given = match (&columns, &temperature) {
+        (Ok(columns), Ok(temperature)) => Some(Given { columns, temperature: temperature.as_ref() }),
         _ => None,
     };
     let changing = Changing::read(&mut root, &materials, used.as_ref(), given);
     root.finish();
     fit?;
-    let (walls, groups) = bodies?;
+    let (walls, groups, openings) = bodies?;
     let Changing { contacts, background } = changing?;
     let scenario = Scenario {
         source: ScenarioSource::default(),
@@ -128,6 +144,8 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         background,
         temperature: temperature?,
         particles: groups.into_iter().map(|(group, _)| group).collect(),
+        inlets: openings.inlets.into_iter().map(|(inlet, _)| inlet).collect(),
+        outlets: openings.outlets.into_iter().map(|(outlet, _)| outlet).collect(),
         enclosure: walls.enclosure,
         walls: walls.walls,
         time: time?,
@@ -141,7 +159,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
 }
 
 /// The materials of particles and walls, each once.
-fn material_use(walls: &Walls, groups: &[PlacedGroup]) -> MaterialUse {
+fn material_use(walls: &Walls, groups: &[PlacedGroup], openings: &Openings) -> MaterialUse {
     let unique = |mut indices: Vec<usize>| {
         indices.sort_unstable();
         indices.dedup();
@@ -151,9 +169,11 @@ fn material_use(walls: &Walls, groups: &[PlacedGroup]) -> MaterialUse {
         let of_material = groups.iter().filter(|(group, _)| group.material == material);
         of_material.map(|(group, _)| group.count).sum()
     };
-    let particles = unique(groups.iter().map(|(group, _)| group.material).collect());
+    let brought = || openings.inlets.iter().map(|(inlet, _)| inlet.material);
+    let particles = unique(groups.iter().map(|(group, _)| group.material).chain(brought()).collect());
+    let is_lone = |material: usize| count(material) == 1 && !brought().any(|other| other == material);
     MaterialUse {
-        lone: particles.iter().copied().filter(|&material| count(material) == 1).collect(),
+        lone: particles.iter().copied().filter(|&material| is_lone(material)).collect(),
         particles,
         walls: unique(walls.walls.iter().map(|wall| wall.material).collect()),
     }
@@ -189,7 +209,8 @@ fn forms_bonds_at_start(contact: &Contact) -> bool {
 /// What a scenario gives to laws that ask for more than the bodies and their motion.
 #[derive(Clone, Copy)]
 struct Given<'a> {
-    groups: &'a [&'a ParticleGroup],
+    /// The further quantities of all groups and inlets, with the key that they stand under.
+    columns: &'a [(&'a str, &'a [ParticleColumn])],
     temperature: Option<&'a TemperatureProgram>,
 }
 
@@ -199,9 +220,9 @@ impl Given<'_> {
         needs_temperature(root, self.temperature, contacts.iter().map(|contact| &contact.model))?;
         for contact in contacts {
             for quantity in contact.model.particle_quantities() {
-                self.groups.iter().try_for_each(|group| needs_quantity(root, group, quantity))?;
+                self.columns.iter().try_for_each(|columns| needs_quantity(root, *columns, quantity))?;
             }
-            let columns = || self.groups.iter().flat_map(|group| &group.columns);
+            let columns = || self.columns.iter().flat_map(|(_, columns)| *columns);
             contact.model = contact.model.bounded_by(|name| {
                 columns().filter(|column| column.name == name).map(|column| column.value).collect()
             });
@@ -217,8 +238,10 @@ fn read_changing(
     used: &MaterialUse,
     help: &str,
 ) -> Result<Changing, InputErrors> {
-    let groups: Vec<&ParticleGroup> = scenario.particles.iter().collect();
-    let given = Given { groups: &groups, temperature: scenario.temperature.as_ref() };
+    let groups = scenario.particles.iter().map(|group| ("particles", &group.columns[..]));
+    let inlets = scenario.inlets.iter().map(|inlet| ("inlets", &inlet.columns[..]));
+    let columns: Vec<_> = groups.chain(inlets).collect();
+    let given = Given { columns: &columns, temperature: scenario.temperature.as_ref() };
     let read = document.read(|mut root| {
         let changing = Changing::read(&mut root, &scenario.materials, Some(used), Some(given));
         for key in root.keys() {
@@ -292,6 +315,12 @@ fn resolve(
             let place = cell.as_ref().map_or(&stage_place, |(_, place)| place);
             let found = "the cell deforms under gravity, but without a bottom it has no height";
             return Err(document.error_at(place, Problem::rule(found, "no gravity in this stage")).into());
+        }
+        if deforms && let Some(inlet) = scenario.inlets.iter().find(|inlet| inlet.schedule.takes_in(&name)) {
+            let place = cell.as_ref().map_or(&stage_place, |(_, place)| place);
+            let found = format!("the cell deforms while the inlet {} is open", inlet.name);
+            let expected = "`stages` in [[inlets]] that name stages in which the cell keeps its shape";
+            return Err(document.error_at(place, Problem::rule(found, expected)).into());
         }
         let cell = cell.map(|(motion, _)| motion);
         stages.push(Stage {

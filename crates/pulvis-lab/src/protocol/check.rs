@@ -154,7 +154,7 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
     let memory = memory_forecast(scenario);
     let particles = &prepared.particles;
     let range = |value: fn(&Particle) -> f64| {
-        let values = particles.iter().map(value);
+        let values = prepared.sample.iter().map(value);
         values.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], value| [low.min(value), high.max(value)])
     };
     let mut forecast = Preflight {
@@ -162,7 +162,7 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
         radii: range(|particle| particle.radius),
         masses: range(|particle| particle.mass),
         total_mass: particles.iter().map(|particle| particle.mass).sum(),
-        contacts: forecasts(scenario, particles),
+        contacts: forecasts(scenario, &prepared.sample),
         stages: stages(scenario, &prepared),
         regimes: regimes(scenario, particles, &prepared.stages),
         memory: prepared.simulation.memory_size() as u64 + held_states(scenario, particles.len()),
@@ -181,9 +181,9 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
         warnings: warnings(scenario, &prepared),
     };
     let columns = Measure::new(scenario, &prepared.simulation).columns().len();
-    refuse_full_disk(scenario, &scenario.output.folder, forecast.particles, columns, &forecast.stages)?;
-    forecast.disk =
-        disk_forecast(scenario, &scenario.output.folder, forecast.particles, columns, &forecast.stages);
+    let most = forecast.particles.max(scenario.expected_particles());
+    refuse_full_disk(scenario, &scenario.output.folder, most, columns, &forecast.stages)?;
+    forecast.disk = disk_forecast(scenario, &scenario.output.folder, most, columns, &forecast.stages);
     forecast.frame_seconds = forecast.disk.snapshots / WRITTEN;
     forecast.warn_of_resources(&scenario.output.folder);
     // Last: the trials make steps of the prepared simulation.
@@ -243,8 +243,7 @@ pub(super) fn surroundings(
     let mut quantities = Vec::new();
     for quantity in contact.model.particle_quantities() {
         let of_material = |material: usize| -> Result<Option<f64>, &'static str> {
-            let groups = scenario.particles.iter().filter(|group| group.material == material);
-            let columns = groups.flat_map(|group| &group.columns);
+            let columns = scenario.columns_of(material);
             let mut values = columns.filter(|column| column.name == quantity.name).map(|column| column.value);
             let Some(first) = values.next() else { return Ok(None) };
             if values.all(|value| value == first) { Ok(Some(first)) } else { Err(quantity.name) }
@@ -320,7 +319,10 @@ pub(crate) fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForec
 fn least_steps(stage: &Stage, time_step: f64, duration: Option<f64>) -> u64 {
     let rules = &stage.until;
     let most = duration.unwrap_or(f64::INFINITY);
-    let least = match (rules.kinetic_to_elastic, rules.strain.is_some() || rules.stress.is_some()) {
+    let least = match (
+        rules.kinetic_to_elastic,
+        rules.strain.is_some() || rules.stress.is_some() || rules.passed.is_some(),
+    ) {
         (None, false) => most,
         (Some(_), false) => most.min(rules.minimum_time + LEAST_STEPS_TO_REST as f64 * time_step),
         (_, true) => 0.0,

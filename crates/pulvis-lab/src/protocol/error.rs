@@ -8,6 +8,7 @@ use pulvis_io::IoError;
 use thiserror::Error;
 
 use super::checkpoint::FindError;
+use super::openings::InletError;
 use crate::rendering::RenderError;
 
 /// What is wrong with a scenario once its particles exist: bad input, found before anything is written.
@@ -144,6 +145,14 @@ pub enum RunError {
         /// What has led to it, as far as the state tells.
         cause: String,
     },
+    /// An inlet could not bring in what it should.
+    #[error("stage `{stage}`: {source}")]
+    Inlet {
+        /// The stage.
+        stage: String,
+        /// Why.
+        source: Box<InletError>,
+    },
     /// A session is asked to go on after it has failed.
     #[error(
         "the simulation has failed and stands in the middle of a step: it can be looked at, but not go on"
@@ -174,6 +183,10 @@ pub enum RunError {
 }
 
 impl RunError {
+    pub(super) fn inlet(stage: &str, source: InletError) -> Self {
+        Self::Inlet { stage: stage.to_owned(), source: Box::new(source) }
+    }
+
     /// Whether the input is to blame, and nothing was computed yet.
     pub fn is_bad_input(&self) -> bool {
         matches!(self, Self::Prepare(_))

@@ -120,10 +120,16 @@ impl Course<'_> {
         let Some((id, speed)) = speeds.max_by(|(_, one), (_, other)| one.total_cmp(other)) else {
             return Ok(());
         };
-        let Some(problem) = self.too_fast(format!("particle {id} moves at"), speed, time_step) else {
-            return Ok(());
+        // The last ones stand for those of inlets, two for each.
+        let inlets = &self.scenario.inlets;
+        let of_inlet = (id + 2 * inlets.len()).checked_sub(particles.len()).map(|number| number / 2);
+        let what = match of_inlet {
+            Some(number) => format!("inlet {} brings particles in at", inlets[number].name),
+            None => format!("particle {id} moves at"),
         };
-        let group = group_path(self.scenario, id);
+        let Some(problem) = self.too_fast(what, speed, time_step) else { return Ok(()) };
+        let group =
+            of_inlet.map_or_else(|| group_path(self.scenario, id), |number| format!("inlets[{number}]"));
         let paths = [format!("{group}.velocity"), format!("{group}.arrangement")];
         let help =
             "lower the speed, or shorten the step, for example by more `steps_per_contact_time` in [time]";

@@ -8,6 +8,7 @@ use pulvis_input::scenario::{Scenario, WallShape};
 use super::cell;
 use super::clusters::{Clusters, clusters};
 use super::observers;
+use super::openings::{self, Openings};
 use super::stage::{length, wall_force, wall_stress};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -74,6 +75,7 @@ pub fn column_names(scenario: &Scenario) -> Vec<String> {
     for observer in &scenario.observers {
         columns.extend(observers::columns(scenario, observer).into_iter().map(|observed| observed.column));
     }
+    columns.extend(openings::columns(scenario));
     columns
 }
 
@@ -133,10 +135,11 @@ impl Measure {
     }
 
     /// One row: the present state in stage number `stage`. What does not exist is NaN.
-    pub fn row(
+    pub(super) fn row(
         &self,
         scenario: &Scenario,
         simulation: &Simulation,
+        openings: &Openings,
         stage: usize,
         start_lengths: [Option<f64>; 3],
     ) -> Vec<f64> {
@@ -201,6 +204,7 @@ impl Measure {
         if !self.observed.regions.is_empty() {
             row.extend(observers::values(scenario, &self.observed, simulation, lengths));
         }
+        row.extend(openings.values(simulation));
         row
     }
 }

@@ -37,7 +37,6 @@ pub(super) fn generate(scenario: &Scenario, domain: &Domain) -> Result<Vec<Parti
 
 /// The further quantities of all particles, in the order of their ids.
 pub(super) fn columns(scenario: &Scenario) -> Vec<NamedColumn> {
-    let Some(first) = scenario.particles.first() else { return Vec::new() };
     let column = |(index, column): (usize, &ParticleColumn)| NamedColumn {
         name: column.name.clone(),
         unit: column.dimension.unit(),
@@ -47,7 +46,7 @@ pub(super) fn columns(scenario: &Scenario) -> Vec<NamedColumn> {
             .flat_map(|group| std::iter::repeat_n(group.columns[index].value, group.count))
             .collect(),
     };
-    first.columns.iter().enumerate().map(column).collect()
+    scenario.columns().iter().enumerate().map(column).collect()
 }
 
 fn radii(
@@ -89,6 +88,10 @@ fn centres(
                 let path = format!("particles[{place}].arrangement");
                 scenario.mistake(&[&path], problem, "enlarge the region or take fewer particles").into()
             })
+        }
+        Arrangement::Aggregate { centre, growth } => {
+            let positions = growth.aggregate(radii, random).into_iter();
+            Ok(positions.map(|position| *centre + position).collect())
         }
         Arrangement::File { grains, .. } => Ok(grains.iter().map(|grain| grain.position).collect()),
         Arrangement::List(positions) => Ok(positions.clone()),

@@ -155,7 +155,8 @@ pub fn run(
     }
     let folder = options.folder.clone().unwrap_or_else(|| scenario.output.folder.clone());
     let columns = Measure::new(scenario, &prepared.simulation).columns().len();
-    let (particles, stages) = (prepared.particles.len(), stages(scenario, &prepared));
+    let stages = stages(scenario, &prepared);
+    let particles = prepared.particles.len().max(scenario.expected_particles());
     refuse_full_disk(scenario, &folder, particles, columns, &stages)?;
     let mut output = OutputFolder::open(&folder, options.force)?;
     let resolved = scenario.to_resolved_toml(&options.version);
@@ -236,12 +237,14 @@ pub(super) fn drop_later(path: &Path) -> Result<(), RunError> {
     Ok(())
 }
 
-/// Sets what changes no bit.
+/// Sets what changes no bit, for as many particles as there are or are `expected`.
 pub(super) fn set_machine(
     simulation: &mut Simulation,
+    expected: usize,
     options: &RunOptions,
 ) -> Result<(), pulvis_core::SetupError> {
-    let threads = options.threads.unwrap_or_else(|| sensible_threads(simulation.particles().len()));
+    let particles = simulation.particles().len().max(expected);
+    let threads = options.threads.unwrap_or_else(|| sensible_threads(particles));
     simulation.set_threads(threads)?;
     if let Some(instructions) = options.instructions {
         simulation.set_instructions(instructions);

@@ -7,6 +7,7 @@ use super::checkpoint::WatchRecord;
 use super::error::RunError;
 use super::explain::likely_cause;
 use super::measure::Measure;
+use super::openings::Openings;
 use super::programs::update;
 use super::run::{StageResult, sensible_threads};
 use super::setup::{Prepared, StagePlan, prepare};
@@ -26,6 +27,7 @@ pub struct Session {
     plans: Vec<StagePlan>,
     walls_arrive: bool,
     measure: Measure,
+    openings: Openings,
     /// The stages that have ended.
     results: Vec<StageResult>,
     /// What the rules of the present stage have seen; `None` between two stages.
@@ -55,9 +57,10 @@ impl Session {
     pub fn new(scenario: Scenario) -> Result<Self, RunError> {
         let prepared = prepare(&scenario)?;
         let warnings = warnings(&scenario, &prepared);
-        let Prepared { simulation, stages: plans, particles: _, origin } = prepared;
+        let Prepared { simulation, stages: plans, particles: _, sample: _, origin } = prepared;
         let mut session = Self {
             measure: Measure::new(&scenario, &simulation),
+            openings: Openings::new(&scenario, origin.openings.as_ref()),
             interactions: origin.interactions,
             update: 0,
             walls_arrive: origin.stage_ended,
@@ -112,6 +115,7 @@ impl Session {
             switch(&mut self.simulation, &mut self.interactions, plan, stage, self.walls_arrive)?;
             self.walls_arrive = true;
             self.update = 0;
+            self.openings.enter_stage(&stage.name, &self.simulation);
         }
         let stage = &self.scenario.stages[number];
         let mut rules = match &self.watch {
@@ -121,13 +125,16 @@ impl Session {
         self.start_lengths = rules.start_lengths();
         let mut left = most;
         let ending = loop {
-            let steps = rules.steps_left(&self.simulation).clamp(1, left);
+            let openings = self.openings.steps_left(&self.simulation);
+            let steps = rules.steps_left(&self.simulation).min(openings).clamp(1, left);
             self.simulation.advance(steps).map_err(|source| self.stopped(source))?;
             (left, *taken) = (left - steps, *taken + steps);
             let programs = (stage, &self.plans[number].programs[..]);
             let (models, present) = (&mut self.interactions, &mut self.update);
             update(&mut self.simulation, models, present, programs, rules.start_time())?;
-            let ending = rules.ending(&self.simulation);
+            let acted = self.openings.act(&mut self.simulation);
+            acted.map_err(|source| RunError::inlet(&stage.name, source))?;
+            let ending = rules.ending(&self.simulation, &self.openings);
             if ending.is_some() || left == 0 {
                 break ending;
             }
@@ -189,7 +196,8 @@ impl Session {
 
     /// One row of the time series: the present state.
     pub fn row(&self) -> Vec<f64> {
-        self.measure.row(&self.scenario, &self.simulation, self.stage() + 1, self.start_lengths)
+        let (stage, openings) = (self.stage() + 1, &self.openings);
+        self.measure.row(&self.scenario, &self.simulation, openings, stage, self.start_lengths)
     }
 
     /// Sets the number of threads; as many as there are processors and work for them where `None`. Results do not depend
@@ -198,7 +206,10 @@ impl Session {
     /// # Errors
     /// No thread, or more than the system gives.
     pub fn set_threads(&mut self, threads: Option<usize>) -> Result<(), RunError> {
-        let threads = threads.unwrap_or_else(|| sensible_threads(self.simulation.particles().len()));
+        let threads = threads.unwrap_or_else(|| {
+            let expected = self.scenario.expected_particles();
+            sensible_threads(self.simulation.particles().len().max(expected))
+        });
         let stage = self.scenario.stages[self.stage()].name.clone();
         self.simulation.set_threads(threads).map_err(|source| RunError::Switch { stage, source })
     }

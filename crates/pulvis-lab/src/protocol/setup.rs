@@ -16,6 +16,7 @@ use super::damping::refuse_overdamped;
 use super::error::PrepareError;
 use super::feasible::check_feasible;
 use super::memory::refuse_too_many;
+use super::openings::{OpeningsRecord, check_openings, sample_of_inlets};
 use super::particles::{columns, generate};
 use super::programs::program_plans;
 use super::refusal::refuse_setup;
@@ -30,6 +31,8 @@ pub struct Prepared {
     pub stages: Vec<StagePlan>,
     /// The particles as they start, by id.
     pub particles: Vec<Particle>,
+    /// The same, and spheres that stand for those that inlets bring.
+    pub(super) sample: Vec<Particle>,
     /// What was before.
     pub(super) origin: Origin,
 }
@@ -43,6 +46,8 @@ pub(super) struct Origin {
     pub(super) interactions: Interactions,
     /// Whether the stage before the first one has ended.
     pub(super) stage_ended: bool,
+    /// What inlets and outlets have seen.
+    pub(super) openings: Option<OpeningsRecord>,
 }
 
 /// What holds during a stage.
@@ -76,7 +81,9 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
     let particles = generate(scenario, &domain)?;
     let walls = drawn_walls(scenario);
     check_start(scenario, &particles, &walls)?;
-    let stages = stages(scenario, &particles, &walls)?;
+    check_openings(scenario, &walls)?;
+    let sample = [&particles[..], &sample_of_inlets(scenario)].concat();
+    let stages = stages(scenario, &sample, &walls)?;
     let first = &stages[0];
     let setup = Setup {
         particles: particles.clone(),
@@ -91,12 +98,16 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
     simulation.set_temperature(scenario.temperature.clone());
     simulation.set_limits(limits(scenario));
     check_overlaps(scenario, &simulation)?;
-    refuse_overdamped(scenario, &particles)?;
-    check_feasible(scenario, &particles, &walls, &stages)?;
+    refuse_overdamped(scenario, &sample)?;
+    check_feasible(scenario, &sample, &walls, &stages)?;
     check_cell(scenario, &particles, &stages, &CellMotion::default())?;
-    let origin =
-        Origin { ancestors: Vec::new(), interactions: first.interactions.clone(), stage_ended: true };
-    Ok(Prepared { simulation, stages, particles, origin })
+    let origin = Origin {
+        ancestors: Vec::new(),
+        interactions: first.interactions.clone(),
+        stage_ended: true,
+        openings: None,
+    };
+    Ok(Prepared { simulation, stages, particles, sample, origin })
 }
 
 /// Refuses more materials than the engine can number; every index fits from here on.

@@ -6,6 +6,7 @@ use pulvis_input::scenario::{Crossing, Programs, Scenario, Stage, StopRules, Wal
 
 use super::cell::time_to_strain;
 use super::checkpoint::WatchRecord;
+use super::openings::Openings;
 use super::programs::elapsed;
 use super::setup::{box_walls, extent};
 use pulvis_core::walls::Extent;
@@ -33,14 +34,16 @@ pub enum Ending {
     Stress,
     /// The wall had done its cycles.
     Cycles,
+    /// Enough had passed an inlet or outlet.
+    Passed,
     /// The user stopped the run.
     Interrupted,
 }
 
 impl Ending {
     /// All endings, in the order of their numbers in checkpoints.
-    const ALL: [Self; 6] =
-        [Self::Time, Self::AtRest, Self::Strain, Self::Stress, Self::Cycles, Self::Interrupted];
+    const ALL: [Self; 7] =
+        [Self::Time, Self::AtRest, Self::Strain, Self::Stress, Self::Cycles, Self::Interrupted, Self::Passed];
 
     /// Its number in checkpoints.
     pub(super) fn number(self) -> u8 {
@@ -60,6 +63,7 @@ impl Ending {
             Self::Strain => "strain reached",
             Self::Stress => "stress reached",
             Self::Cycles => "cycles done",
+            Self::Passed => "enough has passed",
             Self::Interrupted => "interrupted",
         }
     }
@@ -163,7 +167,7 @@ impl<'a> StageWatch<'a> {
     }
 
     /// Whether the stage ends now.
-    pub(super) fn ending(&mut self, simulation: &Simulation) -> Option<Ending> {
+    pub(super) fn ending(&mut self, simulation: &Simulation, openings: &Openings) -> Option<Ending> {
         // Half a step of tolerance: sums of time steps are not exact.
         let elapsed = simulation.time() - self.start_time + 0.5 * simulation.time_step();
         let cycles = cycles_duration(simulation);
@@ -175,6 +179,9 @@ impl<'a> StageWatch<'a> {
         }
         if self.strain_reached(simulation) || self.shear_reached(simulation) {
             return Some(Ending::Strain);
+        }
+        if self.rules.passed.is_some_and(|rule| openings.has_passed(rule.opening, rule.amount)) {
+            return Some(Ending::Passed);
         }
         if !(simulation.steps() - self.start_step).is_multiple_of(LOOK_EVERY) {
             return None;

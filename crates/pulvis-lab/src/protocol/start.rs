@@ -14,6 +14,7 @@ use super::damping::refuse_overdamped;
 use super::error::PrepareError;
 use super::feasible::{check_feasible, start_stage};
 use super::frame::frame_of;
+use super::openings::{check_openings, sample_of_inlets};
 use super::particles::generate;
 use super::programs::{models_after, program_plans};
 use super::run::StageResult;
@@ -179,6 +180,10 @@ fn with_start(mut document: Document, path: Option<&Path>) -> Result<Document, I
 /// # Errors
 /// The particles cannot be made.
 pub(crate) fn start_alike(one: &Scenario, other: &Scenario) -> Result<bool, PrepareError> {
+    // Inlets draw from streams of the seed, unless they have seeds of their own.
+    if one.inlets.iter().any(|inlet| inlet.seed.is_none()) {
+        return Ok(false);
+    }
     if one.start_from.is_some() {
         return Ok(true);
     }
@@ -205,6 +210,7 @@ pub(super) fn branch(scenario: &Scenario, start: &StartFrom) -> Result<Prepared,
     same_system(scenario, &parent)?;
     let mut ancestors = checkpoint.ancestors.clone();
     let stage_ended = checkpoint.run.watch.is_none();
+    let openings = Some(checkpoint.run.openings.clone());
     let walls = walls_in_stage(scenario, &ancestors, &parent.stages[..=stage])?;
     ancestors.push(Ancestor { scenario: checkpoint.scenario.clone(), stage: stage as u32, stage_ended });
     let models = models_after(&parent, &parent.stages[stage], checkpoint.run.update as usize);
@@ -214,16 +220,18 @@ pub(super) fn branch(scenario: &Scenario, start: &StartFrom) -> Result<Prepared,
     let state: State = checkpoint.into_state().map_err(|problem| unfit(problem.to_owned()))?;
     let particles = particles_of(&state);
     check_controls(scenario, &walls)?;
-    let stages = stages(scenario, &particles, &walls)?;
+    check_openings(scenario, &walls)?;
+    let sample = [&particles[..], &sample_of_inlets(scenario)].concat();
+    let stages = stages(scenario, &sample, &walls)?;
     let mut simulation =
         Simulation::import_state(models.clone(), walls, &state).map_err(|error| unfit(error.to_string()))?;
     simulation.set_temperature(scenario.temperature.clone());
     simulation.set_limits(limits(scenario));
-    refuse_overdamped(scenario, &particles)?;
-    check_feasible(scenario, &particles, simulation.walls(), &stages)?;
+    refuse_overdamped(scenario, &sample)?;
+    check_feasible(scenario, &sample, simulation.walls(), &stages)?;
     check_cell(scenario, &particles, &stages, simulation.cell_motion())?;
-    let origin = Origin { ancestors, interactions: models, stage_ended };
-    Ok(Prepared { simulation, stages, particles, origin })
+    let origin = Origin { ancestors, interactions: models, stage_ended, openings };
+    Ok(Prepared { simulation, stages, particles, sample, origin })
 }
 
 /// Refuses scenarios of other walls, materials or directions that repeat: the state means nothing there.

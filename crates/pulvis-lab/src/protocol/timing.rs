@@ -11,6 +11,7 @@ use pulvis_math::{Vector3, elementary};
 
 use super::cell;
 use super::measure::Measure;
+use super::openings::Openings;
 use super::packed::{Density, packing};
 use super::run::sensible_threads;
 use super::setup::{Prepared, StagePlan};
@@ -42,7 +43,8 @@ pub(super) fn stage_costs(
     let _ = simulation.set_threads(threads);
     let measure = Measure::new(scenario, simulation);
     // The loops over contacts add up what a row needs of them: packed or not, a row costs the same.
-    let row = seconds_of(|| measure.row(scenario, simulation, 1, [None; 3]));
+    let openings = Openings::new(scenario, None);
+    let row = seconds_of(|| measure.row(scenario, simulation, &openings, 1, [None; 3]));
     let is_packed = 2.0 * simulation.contact_totals().pairs > 3.0 * prepared.particles.len() as f64;
     let start_step = seconds_of_step(&mut prepared.simulation);
     let mut packed_steps: Vec<(&StagePlan, f64)> = Vec::new();

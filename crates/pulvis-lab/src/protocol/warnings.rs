@@ -12,7 +12,7 @@ use super::setup::Prepared;
 /// Everything that deserves a second look before the run starts.
 pub fn warnings(scenario: &Scenario, prepared: &Prepared) -> Vec<String> {
     let mut warnings: Vec<String> = allowed(scenario).collect();
-    warnings.extend(overdamped(scenario, &prepared.particles).iter().map(ToString::to_string));
+    warnings.extend(overdamped(scenario, &prepared.sample).iter().map(ToString::to_string));
     warnings.extend(unformed_bonds(scenario));
     let mut driven = Driven::at_start(scenario, prepared);
     for stage in &scenario.stages {
@@ -42,7 +42,7 @@ impl Driven {
             controls: vec![WallControl::Motion(WallMotion::Fixed); scenario.walls.len()],
             gravity: false,
             cell: *prepared.simulation.cell_motion(),
-            moved: pushed || prepared.particles.iter().any(moves),
+            moved: pushed || prepared.sample.iter().any(moves),
         }
     }
 

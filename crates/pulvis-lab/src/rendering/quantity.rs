@@ -94,8 +94,8 @@ fn column_label(name: &str, scenario: Option<&Scenario>) -> String {
         return (*label).to_owned();
     }
     let words = name.replace('_', " ");
-    let columns = scenario.and_then(|scenario| scenario.particles.first()).map(|group| &group.columns);
-    match columns.into_iter().flatten().find(|column| column.name == name) {
+    let columns = scenario.map(Scenario::columns).unwrap_or_default();
+    match columns.iter().find(|column| column.name == name) {
         Some(column) => format!("{words} [{}]", column.dimension.unit()),
         None => words,
     }

@@ -125,7 +125,7 @@ fn one_run(
     let own = output.join(&planned.folder);
     let mut status = Status::Complete;
     if !planned.is_complete() {
-        let threads = budget.take(threads_for(planned.scenario.particle_count(), options.threads));
+        let threads = budget.take(threads_for(planned.scenario.expected_particles(), options.threads));
         let mut watch = |progress: &Progress| {
             let fraction = fraction(progress);
             (options.tell)(&Told::Progress { run: number, fraction });

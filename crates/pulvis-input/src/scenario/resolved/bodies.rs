@@ -2,8 +2,8 @@
 
 use super::writer::{Writer, key, list, number, quantity, text, vector};
 use crate::scenario::{
-    Arrangement, BoxFace, Cuboid, GasVelocities, ParticleGroup, RadiusDistribution, Scenario, VelocityPlan,
-    Wall, WallShape,
+    Arrangement, BoxFace, Cuboid, GasVelocities, Growth, ParticleGroup, RadiusDistribution, Scenario,
+    VelocityPlan, Wall, WallShape,
 };
 use pulvis_boundary::{Disk, PlaneWithHole};
 use pulvis_math::Dimension;
@@ -13,7 +13,7 @@ impl Scenario {
         for group in &self.particles {
             writer.item("particles");
             writer.key("material", self.material_text(group.material));
-            if matches!(group.arrangement, Arrangement::Lattice(_) | Arrangement::Random(_)) {
+            if !matches!(group.arrangement, Arrangement::File { .. } | Arrangement::List(_)) {
                 writer.key("count", group.count.to_string());
             }
             if let Some(radius) = &group.radius {
@@ -106,7 +106,14 @@ pub(in crate::scenario) fn write_extent(writer: &mut Writer, extent: &Cuboid) {
     writer.key("upper", vector(extent.upper, Dimension::LENGTH));
 }
 
-fn write_radius(writer: &mut Writer, radius: &RadiusDistribution) {
+pub(in crate::scenario) fn write_radius(writer: &mut Writer, radius: &RadiusDistribution) {
+    let (radius, by) = match radius {
+        RadiusDistribution::ByMass(of) => (&**of, "mass"),
+        other => (other, "number"),
+    };
+    if !matches!(radius, RadiusDistribution::Fixed { .. }) {
+        writer.key("by", text(by));
+    }
     let length = |value: f64| quantity(value, Dimension::LENGTH);
     let mut keys = |name: &str, pairs: &[(&str, String)]| {
         writer.key("distribution", text(name));
@@ -137,6 +144,24 @@ fn write_radius(writer: &mut Writer, radius: &RadiusDistribution) {
                 ("maximum", length(*maximum)),
             ],
         ),
+        RadiusDistribution::RosinRammler { scale, exponent, minimum, maximum } => keys(
+            "rosin-rammler",
+            &[
+                ("scale", length(*scale)),
+                ("exponent", number(*exponent)),
+                ("minimum", length(*minimum)),
+                ("maximum", length(*maximum)),
+            ],
+        ),
+        RadiusDistribution::Table { radii, cumulative } => keys(
+            "table",
+            &[
+                ("radii", list(radii.iter().map(|radius| length(*radius)))),
+                ("cumulative", list(cumulative.iter().map(|share| number(*share)))),
+            ],
+        ),
+        // What is by mass twice is so once.
+        RadiusDistribution::ByMass(of) => write_radius(writer, of),
         RadiusDistribution::List { values, weights } => keys(
             "list",
             &[
@@ -163,6 +188,12 @@ fn write_arrangement(writer: &mut Writer, arrangement: &Arrangement) {
         Arrangement::File { path, .. } => {
             writer.key("kind", text("file"));
             writer.key("path", text(&path.to_string_lossy()));
+        }
+        Arrangement::Aggregate { centre, growth } => {
+            writer.key("kind", text("aggregate"));
+            writer.key("centre", vector(*centre, Dimension::LENGTH));
+            let name = Growth::ALL.iter().find(|(_, other)| other == growth).map_or("", |(name, _)| name);
+            writer.key("growth", text(name));
         }
         Arrangement::List(positions) => {
             writer.key("kind", text("list"));

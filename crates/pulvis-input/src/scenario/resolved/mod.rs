@@ -4,7 +4,9 @@ pub(super) mod bodies;
 mod stages;
 pub(super) mod writer;
 
+use super::inlets::write_inlets;
 use super::observers::write_observers;
+use super::outlets::write_outlets;
 use super::output::{CheckpointPlan, Interval, OutputPlan, Snapshots};
 use super::start::StartFrom;
 use super::time::TimeStep;
@@ -64,6 +66,8 @@ impl Scenario {
             writer.key("program", list(program.points().iter().map(point)));
         }
         self.write_particles(&mut writer);
+        write_inlets(&mut writer, &self.inlets, |material| self.material_text(material));
+        write_outlets(&mut writer, &self.outlets);
         self.write_walls(&mut writer);
         writer.table("time");
         write_time(&mut writer, self.time);

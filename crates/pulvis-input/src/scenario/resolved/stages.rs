@@ -20,6 +20,7 @@ struct Before<'s> {
 impl Scenario {
     pub(super) fn write_stages(&self, writer: &mut Writer) {
         let mut before = Before { contacts: &self.contacts, background: self.background, time: self.time };
+        let openings: Vec<&str> = self.openings().collect();
         for stage in &self.stages {
             writer.item("stages");
             writer.key("name", text(&stage.name));
@@ -30,7 +31,7 @@ impl Scenario {
                 writer.key("program_updates", programs.updates().to_string());
             }
             writer.table("stages.until");
-            write_until(writer, &stage.until);
+            write_until(writer, &stage.until, &openings);
             if let Some(region) = &stage.remove {
                 writer.table("stages.remove");
                 write_region(writer, region);

@@ -15,6 +15,7 @@ use pulvis_io::checkpoint::{self, CheckpointError};
 use pulvis_io::table::SeriesPosition;
 use serde::{Deserialize, Serialize};
 
+use super::openings::OpeningsRecord;
 pub use find::{FindError, checkpoint_files, has_ended};
 pub(super) use find::{Found, find, of_run};
 pub(super) use keeper::{Keeper, Purpose};
@@ -83,6 +84,8 @@ pub(super) struct RunRecord {
     pub(super) checkpoints_due: u64,
     /// Reference lengths of dimensionless columns [m].
     pub(super) reference: Option<[Option<f64>; 3]>,
+    /// What inlets and outlets have seen.
+    pub(super) openings: OpeningsRecord,
     /// Length and hash of the time series.
     pub(super) series: (u64, u64),
     /// Frames in the index, and the step of the last one.

@@ -12,6 +12,7 @@ use crate::protocol::error::RunError;
 use crate::protocol::folder::{LIST, OutputFolder};
 use crate::protocol::kept_rows::KeptRows;
 use crate::protocol::measure::Measure;
+use crate::protocol::openings::Openings;
 use crate::protocol::pace::Due;
 use crate::protocol::programs::models_after;
 use crate::protocol::run::{PictureOptions, StageResult, drop_later};
@@ -59,6 +60,7 @@ impl<'a> Run<'a> {
             watch,
             walls_arrive: true,
             measure,
+            openings: Openings::new(scenario, Some(&record.openings)),
             writer,
             rows,
             snapshots: record.frames.map(frames).transpose()?,
@@ -119,6 +121,7 @@ impl<'a> Run<'a> {
             watch: _,
             walls_arrive: _,
             measure,
+            openings,
             writer,
             rows: _,
             snapshots,
@@ -143,6 +146,7 @@ impl<'a> Run<'a> {
             frames_due: frames_due.as_ref().map_or(0, Due::count),
             checkpoints_due: checkpoints_due.as_ref().map_or(0, Due::count),
             reference: measure.reference(),
+            openings: openings.record(),
             series: (series.bytes, series.hash),
             frames: snapshots.as_ref().map(Snapshots::position),
             files: output.names().to_vec(),

@@ -19,6 +19,7 @@ use super::folder::OutputFolder;
 use super::kept_rows::KeptRows;
 use super::measure::Measure;
 use super::observers::{histogram, histogram_file};
+use super::openings::Openings;
 use super::pace::{Due, PACE, Pace};
 use super::programs::update;
 use super::report::{self, Series};
@@ -53,6 +54,7 @@ pub(super) struct Run<'a> {
     /// Whether motions of walls with an end have come to it when the next stage begins.
     walls_arrive: bool,
     measure: Measure,
+    openings: Openings,
     writer: TimeSeriesWriter,
     rows: KeptRows,
     snapshots: Option<Snapshots>,
@@ -77,7 +79,7 @@ impl<'a> Run<'a> {
         mut output: OutputFolder,
         version: &str,
     ) -> Result<Self, RunError> {
-        let Prepared { simulation, stages: plans, particles: _, origin } = prepared;
+        let Prepared { simulation, stages: plans, particles: _, sample: _, origin } = prepared;
         let measure = Measure::new(scenario, &simulation);
         let writer = TimeSeriesWriter::create(&output.file(TIME_SERIES)?, measure.columns())?;
         let keeper = Keeper::new(scenario, output.path(), version);
@@ -90,6 +92,7 @@ impl<'a> Run<'a> {
             scenario,
             resolved,
             ancestors: origin.ancestors,
+            openings: Openings::new(scenario, origin.openings.as_ref()),
             interactions: origin.interactions,
             update: 0,
             walls_arrive: origin.stage_ended,
@@ -126,7 +129,8 @@ impl<'a> Run<'a> {
         watch: Watch<'_>,
     ) -> Result<RunSummary, RunError> {
         let stage = self.scenario.stages[self.results.len().min(self.plans.len() - 1)].name.clone();
-        set_machine(&mut self.simulation, options).map_err(|source| RunError::Switch { stage, source })?;
+        let machine = set_machine(&mut self.simulation, self.scenario.expected_particles(), options);
+        machine.map_err(|source| RunError::Switch { stage, source })?;
         self.pictures = options.pictures;
         match self.stages(stop, watch).and_then(|interrupted| self.finish(interrupted)) {
             Ok(summary) => Ok(summary),
@@ -169,6 +173,7 @@ impl<'a> Run<'a> {
             Some(rules) => rules,
             None => {
                 self.switch_to(number)?;
+                self.openings.enter_stage(&stage.name, &self.simulation);
                 let rules = StageWatch::new(scenario, stage, &self.simulation);
                 self.row(number, &rules)?;
                 rules
@@ -181,6 +186,8 @@ impl<'a> Run<'a> {
             let programs = (stage, &self.plans[number].programs[..]);
             let (models, present) = (&mut self.interactions, &mut self.update);
             update(&mut self.simulation, models, present, programs, rules.start_time())?;
+            let acted = self.openings.act(&mut self.simulation);
+            acted.map_err(|source| RunError::inlet(&stage.name, source))?;
             if self.rows_due.now(&self.simulation) {
                 self.row(number, &rules)?;
             }
@@ -188,7 +195,7 @@ impl<'a> Run<'a> {
             if self.frames_due.as_mut().is_some_and(|due| due.now(simulation)) {
                 self.frame()?;
             }
-            if let Some(ending) = rules.ending(&self.simulation) {
+            if let Some(ending) = rules.ending(&self.simulation, &self.openings) {
                 break ending;
             }
             let simulation = &self.simulation;
@@ -223,7 +230,8 @@ impl<'a> Run<'a> {
         let pace = PACE - simulation.steps() % PACE;
         let regular = [Some(&self.rows_due), self.frames_due.as_ref(), self.checkpoints_due.as_ref()];
         let regular = regular.into_iter().flatten().map(|due| due.steps_left(simulation));
-        regular.fold(pace, u64::min).min(rules.steps_left(simulation)).max(1)
+        let openings = self.openings.steps_left(simulation);
+        regular.fold(pace, u64::min).min(rules.steps_left(simulation)).min(openings).max(1)
     }
 
     fn switch_to(&mut self, number: usize) -> Result<(), RunError> {
@@ -235,7 +243,8 @@ impl<'a> Run<'a> {
     }
 
     fn row(&mut self, stage: usize, rules: &StageWatch<'_>) -> Result<(), RunError> {
-        let row = self.measure.row(self.scenario, &self.simulation, stage + 1, rules.start_lengths());
+        let (scenario, simulation, lengths) = (self.scenario, &self.simulation, rules.start_lengths());
+        let row = self.measure.row(scenario, simulation, &self.openings, stage + 1, lengths);
         self.writer.row(&row)?;
         self.rows.push(row);
         // What is reported is right.

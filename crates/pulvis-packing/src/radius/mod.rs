@@ -1,5 +1,9 @@
 //! Distributions of particle radii.
 
+mod pieces;
+#[cfg(test)]
+mod tests;
+
 use std::f64::consts::PI;
 
 use pulvis_math::elementary;
@@ -8,6 +12,7 @@ use thiserror::Error;
 
 use super::Random;
 use super::gaussian::standard_normal;
+use pieces::Pieces;
 
 /// How the radii of particles are distributed. All radii are positive, and minimum < maximum.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +51,29 @@ pub enum RadiusDistribution {
         /// Largest radius [m].
         maximum: f64,
     },
+    /// Rosin and Rammler, also called Weibull: the share of radii above r is exp(-(r/scale)^exponent), cut off at both ends.
+    ///
+    /// # Source
+    /// P. Rosin, E. Rammler, J. Inst. Fuel 7, 29 (1933), where shares are those of mass: see [`ByMass`](Self::ByMass).
+    RosinRammler {
+        /// The radius above which a share of 1/e lies before the distribution is cut off [m].
+        scale: f64,
+        /// Exponent [1]; the larger, the narrower.
+        exponent: f64,
+        /// Smallest radius [m].
+        minimum: f64,
+        /// Largest radius [m].
+        maximum: f64,
+    },
+    /// A cumulative table, straight between its points.
+    Table {
+        /// Radii [m], rising.
+        radii: Vec<f64>,
+        /// The share of smaller radii at each, not falling; only ratios of differences count [1].
+        cumulative: Vec<f64>,
+    },
+    /// The shares of another distribution are shares of mass, not of number.
+    ByMass(Box<Self>),
     /// A few radii, drawn in proportion to their weights.
     List {
         /// The radii [m].
@@ -79,7 +107,10 @@ impl RadiusDistribution {
             Self::Fixed { value } => (*value, *value),
             Self::Uniform { minimum, maximum }
             | Self::Normal { minimum, maximum, .. }
-            | Self::LogNormal { minimum, maximum, .. } => (*minimum, *maximum),
+            | Self::LogNormal { minimum, maximum, .. }
+            | Self::RosinRammler { minimum, maximum, .. } => (*minimum, *maximum),
+            Self::Table { radii, cumulative } => pieces::table_limits(radii, cumulative),
+            Self::ByMass(of) => of.limits(),
             Self::List { values, weights } => {
                 let drawn =
                     || values.iter().zip(weights).filter(|(_, weight)| **weight > 0.0).map(|(a, _)| *a);
@@ -113,6 +144,16 @@ impl RadiusDistribution {
                 let standard = |radius: f64| elementary::ln(radius / median) / sigma;
                 has_enough("sigma", standard(*minimum), standard(*maximum))
             }
+            Self::RosinRammler { scale, exponent, minimum, maximum } => {
+                positive("scale", *scale)?;
+                positive("exponent", *exponent)?;
+                in_order(*minimum, *maximum)?;
+                let [below, above] =
+                    [*minimum, *maximum].map(|radius| weibull_above(radius, *scale, *exponent));
+                has_share("scale", below - above)
+            }
+            Self::Table { radii, cumulative } => pieces::check_table(radii, cumulative),
+            Self::ByMass(of) => of.check(),
             Self::List { values, weights } => check_list(values, weights),
         }
     }
@@ -124,6 +165,17 @@ impl RadiusDistribution {
     pub fn draw(&self, count: usize, random: &mut Random) -> Result<Vec<f64>, InvalidDistribution> {
         self.check()?;
         match *self {
+            Self::RosinRammler { scale, exponent, minimum, maximum } => {
+                let [low, high] = [minimum, maximum].map(|radius| weibull_above(radius, scale, exponent));
+                let radius = |above: f64| scale * elementary::powf(-elementary::ln(above), 1.0 / exponent);
+                let mut draw = || radius(low + (high - low) * random.random::<f64>());
+                Ok((0..count).map(|_| draw().clamp(minimum, maximum)).collect())
+            }
+            Self::Table { ref radii, ref cumulative } => {
+                let pieces = Pieces::of_table(radii, cumulative);
+                Ok((0..count).map(|_| pieces.radius(random.random::<f64>())).collect())
+            }
+            Self::ByMass(ref of) => of.draw_by_mass(count, random),
             Self::Fixed { value } => Ok(vec![value; count]),
             Self::Uniform { minimum, maximum } => {
                 Ok((0..count).map(|_| minimum + (maximum - minimum) * random.random::<f64>()).collect())
@@ -139,6 +191,50 @@ impl RadiusDistribution {
             Self::List { ref values, ref weights } => Ok(from_list(values, weights, count, random)),
         }
     }
+}
+
+impl RadiusDistribution {
+    /// Draws radii of a distribution that has been checked, whose shares are those of mass: the number of particles of a share
+    /// goes with 1/r³.
+    fn draw_by_mass(&self, count: usize, random: &mut Random) -> Result<Vec<f64>, InvalidDistribution> {
+        let density: Box<dyn Fn(f64) -> f64> = match *self {
+            // A share of one size is the same by number and mass; shares of mass of shares of mass are these.
+            Self::Fixed { .. } | Self::ByMass(_) => return self.draw(count, random),
+            Self::List { ref values, ref weights } => {
+                let shares = values.iter().zip(weights);
+                let numbers: Vec<f64> =
+                    shares.map(|(radius, weight)| weight / elementary::powi(*radius, 3)).collect();
+                return Ok(from_list(values, &numbers, count, random));
+            }
+            Self::Table { ref radii, ref cumulative } => {
+                let pieces = Pieces::of_table(radii, cumulative).by_mass();
+                return Ok((0..count).map(|_| pieces.radius(random.random::<f64>())).collect());
+            }
+            Self::Uniform { .. } => Box::new(|_| 1.0),
+            Self::Normal { mean, standard_deviation, .. } => {
+                Box::new(move |radius| gaussian((radius - mean) / standard_deviation))
+            }
+            Self::LogNormal { median, sigma, .. } => {
+                Box::new(move |radius| gaussian(elementary::ln(radius / median) / sigma) / radius)
+            }
+            Self::RosinRammler { scale, exponent, .. } => Box::new(move |radius| {
+                elementary::powf(radius / scale, exponent - 1.0) * weibull_above(radius, scale, exponent)
+            }),
+        };
+        let (minimum, maximum) = self.limits();
+        let pieces = Pieces::of_density(density, minimum, maximum).by_mass();
+        Ok((0..count).map(|_| pieces.radius(random.random::<f64>())).collect())
+    }
+}
+
+/// exp(-z²/2).
+fn gaussian(z: f64) -> f64 {
+    elementary::exp(-0.5 * z * z)
+}
+
+/// The share of a Rosin-Rammler distribution above a radius.
+fn weibull_above(radius: f64, scale: f64, exponent: f64) -> f64 {
+    elementary::exp(-elementary::powf(radius / scale, exponent))
 }
 
 fn invalid(parameter: &'static str, found: String, expected: impl Into<String>) -> InvalidDistribution {
@@ -177,7 +273,11 @@ fn within(
 
 /// Refuses limits, in standard deviations from the mean, between which there is too little.
 fn has_enough(parameter: &'static str, lower: f64, upper: f64) -> Result<(), InvalidDistribution> {
-    let share = gaussian_share(lower, upper);
+    has_share(parameter, gaussian_share(lower, upper))
+}
+
+/// Refuses limits between which there is too small a share of the distribution.
+fn has_share(parameter: &'static str, share: f64) -> Result<(), InvalidDistribution> {
     if share >= LEAST_SHARE {
         return Ok(());
     }
@@ -252,93 +352,4 @@ fn from_list(values: &[f64], weights: &[f64], count: usize, random: &mut Random)
         chosen.map_or(last, |(radius, _)| *radius)
     };
     (0..count).map(|_| draw()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-    use super::super::random_stream;
-    use super::*;
-
-    fn moments(distribution: &RadiusDistribution) -> (f64, f64) {
-        let drawn = distribution.draw(40_000, &mut random_stream(5)).unwrap();
-        let mean = drawn.iter().sum::<f64>() / drawn.len() as f64;
-        let variance = drawn.iter().map(|r| elementary::powi(r - mean, 2)).sum::<f64>() / drawn.len() as f64;
-        (mean, variance.sqrt())
-    }
-
-    fn normal(mean: f64, standard_deviation: f64, minimum: f64, maximum: f64) -> RadiusDistribution {
-        RadiusDistribution::Normal { mean, standard_deviation, minimum, maximum }
-    }
-
-    fn list(values: &[f64], weights: &[f64]) -> RadiusDistribution {
-        RadiusDistribution::List { values: values.to_vec(), weights: weights.to_vec() }
-    }
-
-    // 40 000 draws: the mean is good to σ/200, the standard deviation to about σ/280; three of those.
-    #[test]
-    fn distributions_have_their_mean_and_width() {
-        let (mean, width) = moments(&RadiusDistribution::Uniform { minimum: 0.9, maximum: 1.1 });
-        assert!((mean - 1.0).abs() < 9e-4 && (width - 0.1 / 3.0_f64.sqrt()).abs() < 7e-4);
-        let (mean, width) = moments(&normal(1.0, 0.1, 0.3, 1.7));
-        assert!((mean - 1.0).abs() < 1.5e-3 && (width - 0.1).abs() < 1.1e-3);
-        let (median, sigma) = (2.0, 0.2);
-        let (mean, _) =
-            moments(&RadiusDistribution::LogNormal { median, sigma, minimum: 0.1, maximum: 10.0 });
-        assert!((mean / (2.0 * elementary::exp(0.02)) - 1.0).abs() < 4e-3);
-        let (mean, _) = moments(&list(&[1.0, 2.0], &[3.0, 1.0]));
-        assert!((mean - 1.25).abs() < 7e-3);
-    }
-
-    #[test]
-    fn a_distribution_of_which_a_hundredth_is_left_can_be_drawn_and_one_with_less_is_refused() {
-        // Within ±0.01253 standard deviations of the mean there is 1.000 % of a Gaussian.
-        let narrow = |half_width: f64| normal(1.0, 1e-2, 1.0 - half_width, 1.0 + half_width);
-        let drawn = narrow(1.26e-4).draw(2000, &mut random_stream(1)).unwrap();
-        assert!(drawn.iter().all(|radius| (radius - 1.0).abs() <= 1.26e-4));
-        let refused = narrow(1.24e-4).draw(1, &mut random_stream(1)).unwrap_err();
-        assert_eq!(refused.parameter, "standard_deviation");
-        assert_eq!(refused.expected, "1 % or more; or take distribution = \"uniform\"");
-    }
-
-    #[test]
-    fn every_parameter_out_of_its_range_is_refused_by_its_name() {
-        use RadiusDistribution::{Fixed, LogNormal, Uniform};
-        let (minimum, maximum) = (1.0, 2.0);
-        let refused = [
-            (Fixed { value: f64::NAN }, "value"),
-            (Fixed { value: -1.0 }, "value"),
-            (Uniform { minimum: 0.0, maximum }, "minimum"),
-            (Uniform { minimum, maximum: f64::INFINITY }, "maximum"),
-            (Uniform { minimum, maximum: 1.0 }, "maximum"),
-            (normal(3.0, 1.0, minimum, maximum), "mean"),
-            (normal(1.5, f64::NAN, minimum, maximum), "standard_deviation"),
-            (LogNormal { median: 0.5, sigma: 1.0, minimum, maximum }, "median"),
-            (LogNormal { median: 1.5, sigma: 0.0, minimum, maximum }, "sigma"),
-            (list(&[1.0, 0.0], &[1.0, 1.0]), "values"),
-            (list(&[], &[]), "weights"),
-            (list(&[1.0], &[1.0, 2.0]), "weights"),
-            (list(&[1.0, 2.0], &[1.0, -2.0]), "weights"),
-            (list(&[1.0, 2.0], &[0.0, 0.0]), "weights"),
-        ];
-        for (distribution, parameter) in refused {
-            let error = distribution.draw(1, &mut random_stream(1)).unwrap_err();
-            assert_eq!(error.parameter, parameter, "{distribution:?}: {error}");
-        }
-    }
-
-    #[test]
-    fn a_radius_without_weight_is_never_drawn() {
-        let drawn = list(&[1.0, 2.0, 3.0], &[0.0, 1.0, 0.0]).draw(1000, &mut random_stream(3)).unwrap();
-        assert!(drawn.iter().all(|radius| *radius == 2.0));
-        assert_eq!(list(&[1.0, 2.0, 3.0], &[0.0, 1.0, 0.0]).limits(), (2.0, 2.0));
-    }
-
-    #[test]
-    fn two_thirds_of_a_gaussian_lie_within_one_standard_deviation() {
-        // Tabulated: 0.682689492137; Simpson's rule with 200 intervals errs by far less than 1e-9.
-        assert!((gaussian_share(-1.0, 1.0) - 0.682_689_492_137).abs() < 1e-9);
-        assert!((gaussian_share(-1e9, 1e9) - 1.0).abs() < 1e-9);
-    }
 }
