@@ -66,6 +66,7 @@ fn what_is_left_out_has_its_default() {
         folder: "minimal-run".into(),
         timeseries: Interval::Steps(100),
         snapshots: Snapshots::StageEnds,
+        files: Vec::new(),
         plots: true,
         clusters: false,
         checkpoints: Some(CheckpointPlan::default()),

@@ -21,8 +21,8 @@ use std::path::Path;
 use twox_hash::XxHash3_64;
 
 /// The version of the format that this program writes, and the only one that it reads. Version 2 came with cells that
-/// deform.
-pub const VERSION: u32 = 2;
+/// deform, version 3 with several kinds of files.
+pub const VERSION: u32 = 3;
 
 const HEADING: &str = "Pulvis checkpoint ";
 

@@ -45,6 +45,7 @@ mod limits;
 mod materials;
 mod observers;
 mod output;
+mod output_files;
 mod particles;
 mod placement;
 mod points;
@@ -72,6 +73,10 @@ pub use limits::Limits;
 pub use materials::Material;
 pub use observers::{ObservedQuantity, Observer};
 pub use output::{CheckpointPlan, Dimensionless, Interval, OutputPlan, Snapshots};
+pub use output_files::{
+    CONTACT_FIELDS, ContactFields, DEFAULT_CONTACT_FIELDS, DEFAULT_PARTICLE_FIELDS, FileFormat, OutputFiles,
+    PARTICLE_FIELDS,
+};
 pub use particles::{ParticleGroup, VelocityPlan};
 pub use points::PointsError;
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};

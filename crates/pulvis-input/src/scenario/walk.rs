@@ -8,6 +8,7 @@ use super::limits::read_limits;
 use super::materials::{Material, read_materials};
 use super::observers::{check_discards, durations, read_observers};
 use super::output::read_output;
+use super::output_files::Sample;
 use super::particles::{ParticleGroup, PlacedGroup, read_particles};
 use super::placement::check_placement;
 use super::stages::{PlannedStage, Stage, read_stages};
@@ -97,7 +98,12 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         check_discards(&root, &observers, &durations)?;
         Ok(observers)
     });
-    let output = read_output(&mut root, file, names.as_deref());
+    let columns: Option<Vec<String>> = groups.as_ref().ok().map(|groups| {
+        let first = groups.first().map(|(group, _)| &group.columns[..]).unwrap_or_default();
+        first.iter().map(|column| column.name.clone()).collect()
+    });
+    let sample = Sample { domain: known, enclosure, columns: columns.as_deref() };
+    let output = read_output(&mut root, file, &sample, names.as_deref());
     let bodies = walls.and_then(|walls| {
         let groups = groups?;
         check_placement(&root, &groups, &walls.walls, known)?;

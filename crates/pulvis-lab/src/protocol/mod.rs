@@ -26,6 +26,7 @@ mod observers;
 mod outlines;
 mod pace;
 mod packed;
+mod particle_sums;
 mod particles;
 mod refusal;
 mod report;

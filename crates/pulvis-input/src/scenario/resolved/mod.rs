@@ -6,6 +6,7 @@ pub(super) mod writer;
 
 use super::observers::write_observers;
 use super::output::{CheckpointPlan, Interval, OutputPlan, Snapshots};
+use super::output_files::write_output_files;
 use super::start::StartFrom;
 use super::time::TimeStep;
 use super::{Axis, Contact, Material, NamedLaw, Scenario, Stage};
@@ -190,4 +191,5 @@ fn write_output(writer: &mut Writer, output: &OutputPlan, stages: &[Stage]) {
             writer.key("reference_stage", text(&stage.name));
         }
     }
+    write_output_files(writer, &output.files);
 }
