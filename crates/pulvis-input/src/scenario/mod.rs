@@ -41,6 +41,7 @@ mod columns;
 mod contacts;
 mod controls;
 mod domain;
+mod import;
 mod limits;
 mod materials;
 mod observers;
@@ -48,7 +49,6 @@ mod output;
 mod output_files;
 mod particles;
 mod placement;
-mod points;
 mod radius;
 mod region;
 mod resolved;
@@ -69,6 +69,7 @@ pub use axis::{Axis, BoxFace, Side};
 pub use columns::ParticleColumn;
 pub use contacts::Contact;
 pub use controls::WallControl;
+pub use import::{FileReading, PointsError, PointsFormat};
 pub use limits::Limits;
 pub use materials::Material;
 pub use observers::{ObservedQuantity, Observer};
@@ -78,7 +79,6 @@ pub use output_files::{
     PARTICLE_FIELDS,
 };
 pub use particles::{ParticleGroup, VelocityPlan};
-pub use points::PointsError;
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};
 pub use pulvis_boundary::{
     Background, CellControl, CellMotion, Cuboid, Cylinder, CylinderSide, Domain, Plane, Region,

@@ -152,11 +152,8 @@ fn material_use(walls: &Walls, groups: &[PlacedGroup]) -> MaterialUse {
         indices.dedup();
         indices
     };
-    let count = |material: usize| -> usize {
-        let of_material = groups.iter().filter(|(group, _)| group.material == material);
-        of_material.map(|(group, _)| group.count).sum()
-    };
-    let particles = unique(groups.iter().map(|(group, _)| group.material).collect());
+    let count = |material: usize| -> usize { groups.iter().map(|(group, _)| group.count_of(material)).sum() };
+    let particles = unique(groups.iter().flat_map(|(group, _)| group.materials()).collect());
     MaterialUse {
         lone: particles.iter().copied().filter(|&material| count(material) == 1).collect(),
         particles,

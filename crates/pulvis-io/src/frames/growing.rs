@@ -4,7 +4,7 @@ use crate::IoError;
 use crate::table::SeriesPosition;
 use std::fs::{File, OpenOptions};
 use std::hash::Hasher;
-use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use twox_hash::XxHash3_64;
 
@@ -16,7 +16,9 @@ pub(super) struct Growing {
     path: PathBuf,
     name: String,
     /// There is none before the first instant.
-    file: Option<BufWriter<File>>,
+    file: Option<File>,
+    /// What is not handed to the system yet; taken into the hash in the same pieces, because numbers come one by one.
+    waiting: Vec<u8>,
     bytes: u64,
     hash: XxHash3_64,
 }
@@ -51,10 +53,10 @@ impl Growing {
                 }
                 file.set_len(at.bytes).map_err(failed)?;
                 file.seek(SeekFrom::End(0)).map_err(failed)?;
-                (Some(BufWriter::with_capacity(BUFFER, file)), at.bytes)
+                (Some(file), at.bytes)
             }
         };
-        Ok(Self { file, path, name, bytes, hash })
+        Ok(Self { file, waiting: Vec::with_capacity(2 * BUFFER), path, name, bytes, hash })
     }
 
     /// The name of the file.
@@ -73,7 +75,7 @@ impl Growing {
 
     fn create(&mut self) -> io::Result<()> {
         if self.file.is_none() {
-            self.file = Some(BufWriter::with_capacity(BUFFER, File::create(&self.path)?));
+            self.file = Some(File::create(&self.path)?);
         }
         Ok(())
     }
@@ -85,17 +87,23 @@ impl Growing {
 }
 
 impl Write for Growing {
+    #[inline]
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if let Some(file) = &mut self.file {
-            file.write_all(bytes)?;
+        self.waiting.extend_from_slice(bytes);
+        if self.waiting.len() >= BUFFER {
+            self.flush()?;
         }
-        self.hash.write(bytes);
-        self.bytes += bytes.len() as u64;
         Ok(bytes.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.file.as_mut().map_or(Ok(()), Write::flush)
+        if let Some(file) = &mut self.file {
+            file.write_all(&self.waiting)?;
+        }
+        self.hash.write(&self.waiting);
+        self.bytes += self.waiting.len() as u64;
+        self.waiting.clear();
+        Ok(())
     }
 }
 

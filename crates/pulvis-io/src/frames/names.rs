@@ -34,17 +34,18 @@ pub fn shape(numbers: &Numbers) -> &'static [usize] {
     }
 }
 
-/// A number as text: the shortest that reads back as the same number of this precision, exponents where plain digits would be
-/// hard to count.
+/// A number as text: the shortest that reads back as the same number of this precision; `nan`, `inf`, `-inf` for the rest.
 pub(super) fn number(out: &mut impl Write, value: f64, precision: Precision) -> io::Result<()> {
-    let plain = value == 0.0 || !value.is_finite() || (1.0e-4..1.0e15).contains(&value.abs());
-    match (precision, plain) {
-        _ if value.is_nan() => out.write_all(b"nan"),
-        (Precision::Double, true) => write!(out, "{value}"),
-        (Precision::Double, false) => write!(out, "{value:e}"),
-        (Precision::Single, true) => write!(out, "{}", value as f32),
-        (Precision::Single, false) => write!(out, "{:e}", value as f32),
+    if value.is_nan() {
+        return out.write_all(b"nan");
     }
+    let mut buffer = zmij::Buffer::new();
+    let text = match precision {
+        Precision::Double => buffer.format(value),
+        Precision::Single => buffer.format(value as f32),
+    };
+    // Whole numbers come with a fraction that says nothing.
+    out.write_all(text.strip_suffix(".0").unwrap_or(text).as_bytes())
 }
 
 /// The components of one value, each after a separator.

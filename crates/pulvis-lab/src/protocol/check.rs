@@ -170,6 +170,7 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
             snapshots: 0.0,
             frame: 0.0,
             frames: 0.0,
+            files: 0.0,
             checkpoints: 0.0,
             free: None,
         },
@@ -180,7 +181,7 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
     refuse_full_disk(scenario, &scenario.output.folder, forecast.particles, columns, &forecast.stages)?;
     forecast.disk =
         disk_forecast(scenario, &scenario.output.folder, forecast.particles, columns, &forecast.stages);
-    forecast.frame_seconds = forecast.disk.snapshots / WRITTEN;
+    forecast.frame_seconds = (forecast.disk.snapshots + forecast.disk.files) / WRITTEN;
     forecast.warn_of_resources(&scenario.output.folder);
     // Last: the trials make steps of the prepared simulation.
     let durations: Vec<Option<f64>> =
@@ -235,7 +236,7 @@ fn surroundings(scenario: &Scenario, contact: &Contact, at_wall: bool) -> Result
     let mut quantities = Vec::new();
     for quantity in contact.model.particle_quantities() {
         let of_material = |material: usize| -> Result<Option<f64>, &'static str> {
-            let groups = scenario.particles.iter().filter(|group| group.material == material);
+            let groups = scenario.particles.iter().filter(|group| group.count_of(material) > 0);
             let columns = groups.flat_map(|group| &group.columns);
             let mut values = columns.filter(|column| column.name == quantity.name).map(|column| column.value);
             let Some(first) = values.next() else { return Ok(None) };

@@ -18,6 +18,8 @@ pub(crate) struct Selection<'a> {
     fields: Option<&'a [String]>,
     /// Names of what there is of contacts.
     contacts: Vec<&'a str>,
+    /// Names of the columns of memory; `None`: those that contacts have just now.
+    memory: Option<Vec<&'static str>>,
     /// Where particles and contact points lie.
     region: Option<Region>,
 }
@@ -25,7 +27,28 @@ pub(crate) struct Selection<'a> {
 impl<'a> Selection<'a> {
     /// What the key `vtk` writes.
     pub(crate) fn default_of_runs() -> Self {
-        Self { fields: None, contacts: DEFAULT_CONTACT_FIELDS.to_vec(), region: None }
+        Self { fields: None, contacts: DEFAULT_CONTACT_FIELDS.to_vec(), memory: None, region: None }
+    }
+
+    /// Names of what there is of particles, which have these further columns.
+    pub(super) fn fields<'b>(&self, own: impl Iterator<Item = &'b str>) -> Vec<&'b str>
+    where
+        'a: 'b,
+    {
+        match self.fields {
+            Some(fields) => fields.iter().map(String::as_str).collect(),
+            None => DEFAULT_PARTICLE_FIELDS.iter().copied().chain(own).collect(),
+        }
+    }
+
+    /// Names of the columns of memory, if they are the same all the time.
+    pub(super) fn memory(&self) -> &[&'static str] {
+        self.memory.as_deref().unwrap_or_default()
+    }
+
+    /// Names of what there is of contacts.
+    pub(super) fn contacts(&self) -> &[&'a str] {
+        &self.contacts
     }
 
     /// Whether there is anything of contacts.
@@ -34,14 +57,33 @@ impl<'a> Selection<'a> {
     }
 
     /// What a block of files asks for.
-    pub(crate) fn of(files: &'a OutputFiles) -> Self {
+    pub(crate) fn of(files: &'a OutputFiles, scenario: &Scenario) -> Self {
         let contacts = match &files.contacts {
             ContactFields::None => Vec::new(),
             ContactFields::Default => DEFAULT_CONTACT_FIELDS.to_vec(),
             ContactFields::Named(names) => names.iter().map(String::as_str).collect(),
         };
-        Self { fields: files.fields.as_deref(), contacts, region: files.region }
+        let memory = Some(memory_columns(scenario));
+        Self { fields: files.fields.as_deref(), contacts, memory, region: files.region }
     }
+}
+
+/// The columns of memory of all contacts of all stages: readers of one file with all instants want the same columns in each.
+fn memory_columns(scenario: &Scenario) -> Vec<&'static str> {
+    let mut names = Vec::new();
+    let contacts = scenario.contacts.iter().chain(scenario.stages.iter().flat_map(|stage| &stage.contacts));
+    for name in contacts.flat_map(|contact| contact.model.memory_layout().names()) {
+        let name = column_name(name);
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// The name of a column of memory without what follows it.
+fn column_name(name: &'static str) -> &'static str {
+    name.split(' ').next().unwrap_or(name)
 }
 
 /// Particles in the order of their ids, contacts and walls at the present time.
@@ -103,13 +145,7 @@ fn particles(simulation: &Simulation, contacts: &Contacts, selection: &Selection
             None => Numbers::Scalar(vec![f64::NAN; rows.len()]),
         },
     };
-    let names: Vec<&str> = match selection.fields {
-        Some(fields) => fields.iter().map(String::as_str).collect(),
-        None => {
-            let own = particles.columns().iter().map(|column| column.name.as_str());
-            DEFAULT_PARTICLE_FIELDS.iter().copied().chain(own).collect()
-        }
-    };
+    let names = selection.fields(particles.columns().iter().map(|column| column.name.as_str()));
     let columns = names.into_iter().map(|name| (name.to_owned(), column(name))).collect();
     PolyData { points: vectors(particles.positions()), columns }
 }
@@ -136,7 +172,8 @@ impl Contacts {
         if selection.contacts.is_empty() {
             return PolyData::default();
         }
-        let points = self.points(simulation);
+        let needed = selection.region.is_some() || selection.contacts.contains(&"point");
+        let points = if needed { self.points(simulation) } else { Vec::new() };
         let is_inside = |contact: usize| {
             let region = selection.region.as_ref();
             region.is_none_or(|region| region.contains(points[contact].into(), simulation.domain()))
@@ -145,8 +182,10 @@ impl Contacts {
         let mut columns = Vec::new();
         for &name in &selection.contacts {
             if name == "memory" {
-                let memory = self.memory.iter();
-                columns.extend(memory.map(|(name, values)| ((*name).to_owned(), scalars(values, &kept))));
+                let now = || self.memory.iter().map(|(name, _)| *name).collect();
+                for name in selection.memory.clone().unwrap_or_else(now) {
+                    columns.push((name.to_owned(), self.remembered(name, &kept)));
+                }
             } else {
                 columns.push((name.to_owned(), self.column(name, &points, &kept)));
             }
@@ -174,6 +213,14 @@ impl Contacts {
                 let force = Vector3::from(self.force[contact]);
                 (force - self.normal(contact) * self.normal_force[contact]).to_array()
             }),
+        }
+    }
+
+    /// What contacts remember in a column of this name.
+    fn remembered(&self, name: &str, kept: &[usize]) -> Numbers {
+        match self.memory.iter().find(|(known, _)| *known == name) {
+            Some((_, values)) => scalars(values, kept),
+            None => Numbers::Scalar(vec![f64::NAN; kept.len()]),
         }
     }
 
@@ -263,8 +310,7 @@ impl Contacts {
     fn remember(&mut self, contact: &ContactView<'_>) {
         let before = self.first.len() - 1;
         for (name, &value) in contact.layout.names().zip(contact.memory) {
-            let name = name.split(' ').next().unwrap_or(name);
-            let values = self.memory_of(name);
+            let values = self.memory_of(column_name(name));
             values.resize(before, f64::NAN);
             values.push(value);
         }

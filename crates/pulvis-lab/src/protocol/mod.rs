@@ -15,6 +15,7 @@ mod disk;
 mod error;
 mod explain;
 mod feasible;
+mod fields;
 mod folder;
 mod fracture;
 mod frame;

@@ -31,12 +31,12 @@ struct Block<'a> {
 }
 
 /// What a run writes of particles and contacts: one block.
-struct Plan<'a> {
-    format: &'static str,
-    name: &'a str,
+pub(super) struct Plan<'a> {
+    pub(super) format: &'static str,
+    pub(super) name: &'a str,
     every: Option<Interval>,
     precision: Precision,
-    selection: Selection<'a>,
+    pub(super) selection: Selection<'a>,
 }
 
 /// How far a block has come.
@@ -59,7 +59,8 @@ impl BlockRecord {
     }
 }
 
-fn plans(scenario: &Scenario) -> Vec<Plan<'_>> {
+/// All blocks of a scenario.
+pub(super) fn plans(scenario: &Scenario) -> Vec<Plan<'_>> {
     let of_runs = |every| Plan {
         format: "vtk",
         name: "",
@@ -77,7 +78,7 @@ fn plans(scenario: &Scenario) -> Vec<Plan<'_>> {
         name: &files.name,
         every: files.every,
         precision: if files.single_precision { Precision::Single } else { Precision::Double },
-        selection: Selection::of(files),
+        selection: Selection::of(files, scenario),
     }));
     plans
 }

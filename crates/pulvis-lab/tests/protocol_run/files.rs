@@ -15,7 +15,7 @@ pub(super) fn every_format() -> Vec<OutputFiles> {
     let block = |(number, (name, format)): (usize, (&str, FileFormat))| OutputFiles {
         name: name.replace('-', "_"),
         format,
-        every: [None, Some(Interval::Steps(37)), Some(Interval::Time(3e-9))][number % 3],
+        every: [None, Some(Interval::Steps(211)), Some(Interval::Time(3e-9))][number % 3],
         fields: (number % 2 == 1).then(|| PARTICLE_FIELDS.map(str::to_owned).into()),
         contacts: if format == FileFormat::Xyz { ContactFields::None } else { ContactFields::Default },
         region: (number == 3)
@@ -105,7 +105,7 @@ fn the_sums_over_particles_are_the_stress_of_observers_and_the_energies_of_the_l
     }
     let stored =
         ["elastic_normal", "elastic_sliding", "elastic_rolling", "elastic_torsion", "adhesive"].map(last);
-    let scale = stored.iter().map(|energy| energy.abs()).sum();
+    let scale: f64 = stored.iter().map(|energy| energy.abs()).sum();
     near(numbers(&particles, "stored_energy").iter().sum(), stored.iter().sum(), 1e2 * scale, "stored");
     let contacts = last_table(folder.path(), "all_contacts");
     near(numbers(&contacts, "stored_energy").iter().sum(), stored.iter().sum(), 1e2 * scale, "stored");
@@ -158,4 +158,57 @@ fn every_format_of_scenarios_has_a_writer() {
         assert_eq!(pulvis_io::frames::format(name).unwrap().name, name);
     }
     assert_eq!(pulvis_io::frames::FORMATS.len(), FileFormat::ALL.len());
+}
+
+#[test]
+fn the_last_state_as_csv_or_xyz_is_a_start_with_the_same_particles() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scenario = observed();
+    let block = |name: &str, format| OutputFiles {
+        name: name.to_owned(),
+        format,
+        every: None,
+        fields: None,
+        contacts: ContactFields::None,
+        region: None,
+        single_precision: false,
+    };
+    scenario.output.files =
+        vec![block("a", FileFormat::Csv), block("b", FileFormat::Xyz), block("c", FileFormat::LammpsDump)];
+    run(&scenario, folder.path());
+    let last = last_table(folder.path(), "a");
+    let names =
+        fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let csv = names.filter(|name| name.starts_with("a_") && name.ends_with(".csv")).max().unwrap();
+    for (file, materials) in [(csv.as_str(), "true"), ("b.xyz", "true"), ("c.dump", "{ 1 = \"grain\" }")] {
+        let text = format!(
+            "[materials.grain]\ndensity = \"2000 kg/m^3\"\n[contacts.grain-grain.normal]\nlaw = \"linear\"\nk = \"100 N/m\"\n\
+             [[particles]]\n[particles.arrangement]\nkind = \"file\"\npath = {:?}\nmaterials = {materials}\n\
+             [[stages]]\nname = \"on\"\nuntil = {{ time = \"1 ns\" }}\n",
+            folder.path().join(file)
+        );
+        let start = super::protocol_scenarios::scenario(&text);
+        // The record of a run reads the same particles.
+        let again = super::protocol_scenarios::scenario(&start.to_resolved_toml("test"));
+        assert_eq!(start.particles, again.particles, "{file}");
+        let particles = pulvis_lab::protocol::prepare(&start).unwrap().particles;
+        assert_eq!(particles.len(), last["id"].len(), "{file}");
+        type Value = fn(&pulvis_core::Particle) -> Vector3;
+        let columns: [([&str; 3], Value); 3] = [
+            (["x", "y", "z"], |particle| particle.position),
+            (["vx", "vy", "vz"], |particle| particle.velocity),
+            (["omegax", "omegay", "omegaz"], |particle| particle.angular_velocity),
+        ];
+        for (names, value) in columns {
+            for (axis, name) in names.into_iter().enumerate() {
+                let found: Vec<f64> = particles.iter().map(|particle| value(particle)[axis]).collect();
+                assert_eq!(found, numbers(&last, name), "{file}: {name}");
+            }
+        }
+        assert!(particles.iter().any(|particle| particle.angular_velocity.norm() > 0.0));
+        assert_eq!(
+            particles.iter().map(|particle| particle.radius).collect::<Vec<_>>(),
+            numbers(&last, "radius")
+        );
+    }
 }

@@ -15,6 +15,7 @@ use super::averages::{self, AVERAGES, Average};
 use super::checkpoint::{Ancestor, Keeper, LATEST, PREVIOUS, stage_file};
 use super::error::RunError;
 use super::explain::{ALARM, AlarmReport, likely_cause};
+use super::fields::{FIELDS, fields};
 use super::folder::OutputFolder;
 use super::kept_rows::KeptRows;
 use super::measure::Measure;
@@ -75,6 +76,7 @@ impl<'a> Run<'a> {
     ) -> Result<Self, RunError> {
         let Prepared { simulation, stages: plans, particles: _, origin } = prepared;
         let measure = Measure::new(scenario, &simulation);
+        fields(scenario, measure.columns())?.write(&output.file(FIELDS)?)?;
         let writer = TimeSeriesWriter::create(&output.file(TIME_SERIES)?, measure.columns())?;
         let keeper = Keeper::new(scenario, output.path(), version);
         if keeper.plan().is_some() {
