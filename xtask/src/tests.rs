@@ -63,7 +63,9 @@ fn sample_files() -> Outcome {
     let folder = scratch("sample_run")?;
     let path = folder.to_string_lossy();
     run(&mut cargo(&["run", "--quiet", "-p", "pulvis-io", "--example", "sample_run", "--", &path]))?;
-    read_by_vtk(&folder, &["--sample"])
+    read_by_vtk(&folder, &["--sample"])?;
+    let Some(python) = python_with_vtk() else { return Ok(()) };
+    run(Command::new(python).arg(root().join("scripts/check_formats.py")).arg(&folder))
 }
 
 /// Has Python's VTK read a run folder, unless it cannot be had, which is said.
@@ -77,7 +79,7 @@ pub fn read_by_vtk(folder: &std::path::Path, options: &[&str]) -> Outcome {
 fn python_with_vtk() -> Option<PathBuf> {
     let environment = target().join("xtask-python");
     let python = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let has_vtk = || works(Command::new(&python).args(["-c", "import vtkmodules.vtkIOXML, numpy"]));
+    let has_vtk = || works(Command::new(&python).args(["-c", "import vtkmodules.vtkIOXML, numpy, pandas"]));
     if has_vtk() {
         return Some(python);
     }
@@ -96,9 +98,12 @@ fn python_with_vtk() -> Option<PathBuf> {
         );
         return None;
     }
-    let install = ["-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "20", "vtk", "numpy"];
+    let install =
+        ["-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "20", "vtk", "numpy", "pandas"];
     if !works(Command::new(&python).args(install)) || !has_vtk() {
-        println!("skipped: VTK files are not read by VTK's own reader, `pip install vtk` does not work here");
+        println!(
+            "skipped: files are not read by their own readers, `pip install vtk numpy pandas` does not work here"
+        );
         return None;
     }
     Some(python)

@@ -66,6 +66,7 @@ fn what_is_left_out_has_its_default() {
         folder: "minimal-run".into(),
         timeseries: Interval::Steps(100),
         snapshots: Snapshots::StageEnds,
+        files: Vec::new(),
         plots: true,
         clusters: false,
         checkpoints: Some(CheckpointPlan::default()),
@@ -181,7 +182,7 @@ fn stages_switch_laws_and_parameters() {
 #[test]
 fn positions_come_from_files_beside_the_scenario() {
     let scenario = good("switching.toml");
-    let Arrangement::File { grains, path } = &scenario.particles[0].arrangement else { panic!("a file") };
+    let Arrangement::File { grains, path, .. } = &scenario.particles[0].arrangement else { panic!("a file") };
     assert!(path.is_absolute());
     assert_eq!((grains.len(), grains[1].radius, grains[1].velocity.unwrap().z), (2, Some(1.5e-4), -1.0));
     assert_eq!((&scenario.particles[0].radius, scenario.particles[0].count), (&None, 2));

@@ -1,17 +1,23 @@
-//! Writes a small run folder for `scripts/check_vtk.py`: `cargo run -p pulvis-io --example sample_run -- <folder>`.
+//! Writes a small run folder for `scripts/check_vtk.py` and `scripts/check_formats.py`:
+//! `cargo run -p pulvis-io --example sample_run -- <folder>`.
 //!
 //! The values follow formulas that the script knows, so it can tell whether a reader got them right.
 #![allow(clippy::print_stderr)]
 
 use pulvis_io::IoError;
-use pulvis_io::vtk::{Column, ContactFrame, ParticleFrame, SeriesWriter, WallFrame};
+use pulvis_io::frames::{Bounds, FORMATS, Instant, Precision, Series};
+use pulvis_io::vtk::{
+    Column, ContactFrame, Frame, Numbers, ParticleFrame, PolyData, SeriesWriter, WallFrame,
+};
+use std::path::{Path, PathBuf};
 
 fn main() -> std::process::ExitCode {
     let Some(folder) = std::env::args_os().nth(1) else {
         eprintln!("usage: sample_run <folder>");
         return std::process::ExitCode::from(2);
     };
-    match write(folder.into()) {
+    let folder = PathBuf::from(folder);
+    match write(folder.clone()).and_then(|()| write_formats(&folder)) {
         Ok(()) => std::process::ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -21,7 +27,7 @@ fn main() -> std::process::ExitCode {
 }
 
 /// Frames of a row of spheres, one of them without contacts and walls; the last one is empty. Readers must bear both.
-fn write(folder: std::path::PathBuf) -> Result<(), IoError> {
+fn write(folder: PathBuf) -> Result<(), IoError> {
     let mut series = SeriesWriter::create(folder, "")?;
     let frames = [(0.0, 5_u32, true), (0.0625, 7, false), (0.125, 4000, true), (1.0e-3 + 0.25, 0, true)];
     for (time, count, touching) in frames {
@@ -64,4 +70,64 @@ fn write(folder: std::path::PathBuf) -> Result<(), IoError> {
         series.write(time, &particles, &contacts, &walls)?;
     }
     Ok(())
+}
+
+/// Three instants of seven spheres in every format, with 64 and with 32 bits.
+fn write_formats(folder: &Path) -> Result<(), IoError> {
+    let materials = ["glass".to_owned(), "steel".to_owned()];
+    let bounds = Bounds {
+        lower: [0.0, -1.0, 0.0],
+        upper: [3.0, 1.0, 2.0],
+        tilt: [0.5, 0.0, -0.25],
+        periodic: [true, false, true],
+    };
+    for (precision, end) in [(Precision::Double, "double"), (Precision::Single, "single")] {
+        for format in FORMATS {
+            let name = format!("{}_{end}", format.name.replace('-', "_"));
+            let mut writer =
+                (format.open)(&Series { folder, name: &name, precision, contacts: true, resume: None })?;
+            for step in [0, 100, 200] {
+                let time = step as f64 / 700.0;
+                let frame = frame(time);
+                writer.write(&Instant { time, step, bounds, materials: &materials, frame: &frame })?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn frame(time: f64) -> Frame {
+    let ids: Vec<i64> = (0..7).collect();
+    let value = |id: i64, part: usize| (id as f64 + 1.0) / 3.0 + 1.0e-7 * part as f64 + time;
+    let vector = |start: usize| -> Vec<[f64; 3]> {
+        ids.iter().map(|&id| std::array::from_fn(|axis| value(id, start + axis))).collect()
+    };
+    let points = vector(0);
+    let tensor = ids.iter().map(|&id| std::array::from_fn(|part| value(id, 20 + part))).collect();
+    let columns = [
+        ("id", Numbers::Integer(ids.clone())),
+        ("type", Numbers::Integer(ids.iter().map(|id| id % 2).collect())),
+        ("radius", Numbers::Scalar(ids.iter().map(|&id| value(id, 10)).collect())),
+        ("v", Numbers::Vector(vector(11))),
+        ("omega", Numbers::Vector(vector(14))),
+        ("f", Numbers::Vector(vector(17))),
+        ("stress", Numbers::Tensor(tensor)),
+    ];
+    let contacts = [
+        ("id1", Numbers::Integer(vec![0, 2])),
+        ("id2", Numbers::Integer(vec![1, -1])),
+        ("force", Numbers::Vector(vec![[0.1, 0.2, 0.3], [time, 0.0, -1.0e-9]])),
+    ];
+    let named = |(name, numbers): (&str, Numbers)| (name.to_owned(), numbers);
+    Frame {
+        contacts: PolyData {
+            points: vec![points[0], points[1], points[2], [0.0; 3]],
+            columns: contacts.map(named).into(),
+        },
+        particles: PolyData { points, columns: columns.map(named).into() },
+        walls: PolyData {
+            points: Vec::new(),
+            columns: vec![("radius".to_owned(), Numbers::Scalar(Vec::new()))],
+        },
+    }
 }

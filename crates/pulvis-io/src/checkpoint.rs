@@ -21,7 +21,7 @@ use std::path::Path;
 use twox_hash::XxHash3_64;
 
 /// The version of the format that this program writes, and the only one that it reads. Version 3 came with walls that turn,
-/// inlets and outlets, and programs of parameters.
+/// inlets and outlets, programs of parameters, and several kinds of files.
 pub const VERSION: u32 = 3;
 
 const HEADING: &str = "Pulvis checkpoint ";

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
 
+#[path = "protocol_run/files.rs"]
+mod files;
 mod protocol_scenarios;
 #[path = "protocol_run/resume.rs"]
 mod resume;

@@ -158,10 +158,14 @@ fn describe_output(text: &mut String, scenario: &Scenario, forecast: &Preflight)
     } else {
         ""
     };
+    let files = match &scenario.output.files[..] {
+        [] => String::new(),
+        _ => format!(", further files {}", size_in_words(disk.files as u64)),
+    };
     let free = disk.free.map_or(String::new(), |free| format!("; {} are free", size_in_words(free)));
     let _ = writeln!(
         text,
-        "{:<17} {limit}{}: time series {}, {:.0} frames of {}, checkpoints {}{open}{free}",
+        "{:<17} {limit}{}: time series {}, {:.0} frames of {}{files}, checkpoints {}{open}{free}",
         "",
         size_in_words(disk.total() as u64),
         size_in_words(disk.timeseries as u64),

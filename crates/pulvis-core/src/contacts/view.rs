@@ -37,6 +37,8 @@ pub struct ContactView<'a> {
     pub force: Vector3,
     /// Its part along the normal, repulsion positive [N].
     pub normal_force: f64,
+    /// What its laws have stored: springs, bonds, and the potential of attractions [J].
+    pub stored_energy: f64,
     /// Memory of the contact, column by column as `layout` names them.
     pub memory: &'a [f64],
     /// The names and units of its columns.
@@ -152,6 +154,7 @@ impl<'a> Views<'a> {
             overlap: seen.motion.overlap,
             force: answer.force,
             normal_force: answer.normal_force,
+            stored_energy: answer.energies.stored(),
             memory,
             layout: &group.layout,
         })

@@ -1,16 +1,20 @@
 //! Where the particles of a group start.
 
 use super::domain::read_extent;
-use super::points::{PointsError, read_points};
+use super::import::{FileReading, PointsError, PointsFormat, read_points};
+use super::materials::{Material, read_material_name};
 use crate::context::Reported;
 use crate::list::{List, Vector};
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use crate::shape::{Choice, Integer, Text};
+use crate::shape::{Choice, Integer, Shape, Text};
+use crate::value::Value;
+use crate::value_reader::ValueReader;
 use pulvis_boundary::Cuboid;
 use pulvis_math::{Dimension, Vector3};
 use pulvis_packing::{Growth, Lattice};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Where the particles of a group start.
@@ -31,7 +35,9 @@ pub enum Arrangement {
     File {
         /// The absolute path of the file.
         path: PathBuf,
-        /// What stands in it; radius and velocity are given for all grains or for none.
+        /// How it is read.
+        reading: FileReading,
+        /// What stands in it; a quantity is given for all grains or for none.
         grains: Vec<Grain>,
     },
     /// At these positions [m].
@@ -47,13 +53,21 @@ pub struct Grain {
     pub radius: Option<f64>,
     /// Velocity [m/s], if the file has them.
     pub velocity: Option<Vector3>,
+    /// Angular velocity [rad/s], if the file has them.
+    pub angular_velocity: Option<Vector3>,
+    /// Index of the material, if the file tells it.
+    pub material: Option<usize>,
 }
 
 /// More particles than this do not fit into any memory: the number is a slip.
 pub(super) const MOST_PARTICLES: i64 = 10_000_000_000;
 
 /// Reads `[particles.arrangement]`; paths of files are relative to `folder`.
-pub(super) fn read_arrangement(mut table: TableReader<'_>, folder: &Path) -> Result<Arrangement, Reported> {
+pub(super) fn read_arrangement(
+    mut table: TableReader<'_>,
+    materials: &[Material],
+    folder: &Path,
+) -> Result<Arrangement, Reported> {
     let read = match table.selector("kind", &["lattice", "random", "aggregate", "file", "list"])? {
         "lattice" => read_lattice(&mut table).map(Arrangement::Lattice),
         "random" => read_extent(&mut table).map(Arrangement::Random),
@@ -62,7 +76,7 @@ pub(super) fn read_arrangement(mut table: TableReader<'_>, folder: &Path) -> Res
             let growth = table.required("growth", Choice(&Growth::ALL));
             centre.and_then(|centre| Ok(Arrangement::Aggregate { centre: centre.into(), growth: growth? }))
         }
-        "file" => read_file(&mut table, folder),
+        "file" => read_file(&mut table, materials, folder),
         _ => table
             .required("positions", List::of(Vector::of(Dimension::LENGTH)).at_least(1))
             .map(|positions| Arrangement::List(positions.into_iter().map(Vector3::from).collect())),
@@ -90,12 +104,17 @@ fn read_lattice(table: &mut TableReader<'_>) -> Result<Lattice, Reported> {
     Ok(Lattice { lower: lower?.into(), counts: cells, spacing: spacing?, jitter: jitter? })
 }
 
-fn read_file(table: &mut TableReader<'_>, folder: &Path) -> Result<Arrangement, Reported> {
+fn read_file(
+    table: &mut TableReader<'_>,
+    materials: &[Material],
+    folder: &Path,
+) -> Result<Arrangement, Reported> {
     let given = table.required("path", Text)?;
     let path = folder.join(given);
     let path = std::path::absolute(&path).unwrap_or(path);
-    match read_points(&path) {
-        Ok(grains) => Ok(Arrangement::File { path, grains }),
+    let reading = read_reading(table, materials, &path)?;
+    match read_points(&path, &reading) {
+        Ok(grains) => Ok(Arrangement::File { path, reading, grains }),
         Err(error @ (PointsError::Missing { .. } | PointsError::Unreadable { .. })) => Err(table
             .refuse_with_help(
                 "path",
@@ -103,5 +122,69 @@ fn read_file(table: &mut TableReader<'_>, folder: &Path) -> Result<Arrangement, 
                 "the path is relative to the folder of the scenario",
             )),
         Err(error) => Err(table.refuse("path", Problem::Refused(Box::new(error)))),
+    }
+}
+
+/// How the file is read.
+fn read_reading(
+    table: &mut TableReader<'_>,
+    materials: &[Material],
+    path: &Path,
+) -> Result<FileReading, Reported> {
+    let format = table.or("format", Choice(&PointsFormat::ALL), PointsFormat::of_path(path));
+    let frame = table.optional("frame", Integer::at_least(0));
+    let length_unit = table.or("length_unit", QuantityRule::of(Dimension::LENGTH).above(0.0), 1.0);
+    let time_unit = table.or("time_unit", QuantityRule::of(Dimension::TIME).above(0.0), 1.0);
+    let words = read_words(table, materials);
+    let (format, frame) = (format?, frame?);
+    if frame.is_some() && !matches!(format, PointsFormat::LammpsDump | PointsFormat::Xyz) {
+        let found = format!("a file of the format {:?} holds one instant", format.name());
+        return Err(table.refuse("frame", Problem::rule(found, "no `frame`")));
+    }
+    Ok(FileReading {
+        format,
+        frame: frame.map(|frame| usize::try_from(frame).unwrap_or(usize::MAX)),
+        length_unit: length_unit?,
+        time_unit: time_unit?,
+        materials: words?,
+    })
+}
+
+/// What the words of the file mean: all names of materials themselves, or what a table says.
+fn read_words(
+    table: &mut TableReader<'_>,
+    materials: &[Material],
+) -> Result<Option<BTreeMap<String, usize>>, Reported> {
+    let Some(value) = table.value("materials") else { return Ok(None) };
+    if !value.is_table() {
+        let wanted = value.read(MaterialsShape)?;
+        let themselves = materials.iter().enumerate().map(|(index, material)| (material.name.clone(), index));
+        return Ok(wanted.then(|| themselves.collect()));
+    }
+    let mut words = value.table()?;
+    let keys = words.keys();
+    let read: Vec<_> = keys
+        .into_iter()
+        .map(|word| Ok((word.to_owned(), read_material_name(&mut words, word, materials)?)))
+        .collect();
+    words.finish();
+    read.into_iter().collect::<Result<BTreeMap<_, _>, _>>().map(Some)
+}
+
+/// `true`, `false` or a table, as the message names it.
+struct MaterialsShape;
+
+impl Shape for MaterialsShape {
+    type Output = bool;
+
+    fn describe(&self) -> String {
+        "true (the file has names of materials) or a table like { 1 = \"glass\", 2 = \"steel\" }".to_owned()
+    }
+
+    fn read(&self, value: &ValueReader<'_>) -> Result<bool, Reported> {
+        match value.raw() {
+            Value::Boolean(wanted) => Ok(*wanted),
+            _ => Err(value.wrong_type(&self.describe())),
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Further quantities of particles: charge, temperature and whatever else.
 
+use super::output_files::PARTICLE_FIELDS;
 use crate::any_quantity::AnyQuantity;
 use crate::context::Reported;
 use crate::problem::Problem;
@@ -17,9 +18,6 @@ pub struct ParticleColumn {
     /// Its dimension.
     pub dimension: Dimension,
 }
-
-/// Names that particles in output files have already.
-const TAKEN: [&str; 8] = ["id", "type", "radius", "v", "omega", "f", "torque", "coordination"];
 
 /// Reads `[particles.columns]`, in the order of the file. All groups have the same quantities: those of the `first`
 /// one, unless this is it.
@@ -87,7 +85,7 @@ fn read_column(table: &mut TableReader<'_>, name: &str) -> Result<ParticleColumn
         let found = format!("\"{name}\" is no name of a column");
         return Err(table.refuse(name, Problem::rule(found, "only letters, digits and underscores")));
     }
-    if TAKEN.contains(&name) {
+    if PARTICLE_FIELDS.contains(&name) {
         let found = format!("output files have a column `{name}` already");
         return Err(table.refuse(name, Problem::rule(found, "another name")));
     }

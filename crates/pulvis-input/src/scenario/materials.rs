@@ -80,11 +80,21 @@ pub(super) fn read_material_with_density(
     materials: &[Material],
 ) -> Result<usize, Reported> {
     let index = read_material_name(table, "material", materials)?;
+    needs_density(table, "material", materials, index)
+}
+
+/// Refuses a material without a density, named at `key`: particles are made of it.
+pub(super) fn needs_density(
+    table: &TableReader<'_>,
+    key: &str,
+    materials: &[Material],
+    index: usize,
+) -> Result<usize, Reported> {
     match materials.get(index) {
         Some(Material { name, density: None, .. }) => {
             let found = format!("{name} has no density");
             let expected = format!("`density` in [materials.{name}], because particles are made of it");
-            Err(table.refuse("material", Problem::rule(found, expected)))
+            Err(table.refuse(key, Problem::rule(found, expected)))
         }
         _ => Ok(index),
     }

@@ -41,6 +41,7 @@ mod columns;
 mod contacts;
 mod controls;
 mod domain;
+mod import;
 mod inlets;
 mod limits;
 mod materials;
@@ -49,9 +50,9 @@ mod observers;
 mod openings;
 mod outlets;
 mod output;
+mod output_files;
 mod particles;
 mod placement;
-mod points;
 mod programs;
 mod radius;
 mod region;
@@ -74,6 +75,7 @@ pub use axis::{Axis, BoxFace, Side};
 pub use columns::ParticleColumn;
 pub use contacts::Contact;
 pub use controls::WallControl;
+pub use import::{FileReading, PointsError, PointsFormat};
 pub use inlets::Inlet;
 pub use limits::Limits;
 pub use materials::Material;
@@ -82,8 +84,11 @@ pub use observers::{ObservedQuantity, Observer};
 pub use openings::Schedule;
 pub use outlets::{Outlet, OutletZone};
 pub use output::{CheckpointPlan, Dimensionless, Interval, OutputPlan, Snapshots};
+pub use output_files::{
+    CONTACT_FIELDS, ContactFields, DEFAULT_CONTACT_FIELDS, DEFAULT_PARTICLE_FIELDS, FileFormat, OutputFiles,
+    PARTICLE_FIELDS,
+};
 pub use particles::{ParticleGroup, VelocityPlan};
-pub use points::PointsError;
 pub use programs::{Program, ProgramState, Programs};
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};
 pub use pulvis_boundary::{
@@ -261,7 +266,7 @@ impl Scenario {
 
     /// The further quantities of all groups and inlets of a material.
     pub fn columns_of(&self, material: usize) -> impl Iterator<Item = &ParticleColumn> {
-        let groups = self.particles.iter().filter(move |group| group.material == material);
+        let groups = self.particles.iter().filter(move |group| group.count_of(material) > 0);
         let inlets = self.inlets.iter().filter(move |inlet| inlet.material == material);
         groups.flat_map(|group| &group.columns).chain(inlets.flat_map(|inlet| &inlet.columns))
     }

@@ -143,7 +143,7 @@ fn read_quantities(table: &mut TableReader<'_>) -> Result<Vec<ObservedQuantity>,
 }
 
 /// Refuses a region that holds no part of the sample for certain, or parts of it twice.
-fn check_region(
+pub(super) fn check_region(
     table: &TableReader<'_>,
     region: Region,
     domain: Option<&Domain>,

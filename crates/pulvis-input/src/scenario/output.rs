@@ -1,5 +1,6 @@
 //! What a run writes, how often, and where.
 
+use super::output_files::{OutputFiles, Sample, read_output_files};
 use crate::context::Reported;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
@@ -18,6 +19,8 @@ pub struct OutputPlan {
     pub timeseries: Interval,
     /// When particles and contacts are written.
     pub snapshots: Snapshots,
+    /// Further files of particles and contacts.
+    pub files: Vec<OutputFiles>,
     /// Whether plots are drawn.
     pub plots: bool,
     /// Whether the time series tells which particles hang together.
@@ -82,10 +85,12 @@ pub struct Dimensionless {
 const DEFAULT_STEPS: u64 = 100;
 
 /// Reads `[output]`; `source` is the scenario file, whose name the folder takes where it has none, and
-/// `stages` are the names of the stages, if these could be read.
+/// `sample` is what regions and columns of further files may refer to, and `stages` are the names of the stages, if these
+/// could be read.
 pub(super) fn read_output(
     root: &mut TableReader<'_>,
     source: &Path,
+    sample: &Sample<'_>,
     stages: Option<&[&str]>,
 ) -> Result<OutputPlan, Reported> {
     let stem = source.file_stem().map_or_else(|| "scenario".into(), |stem| stem.to_string_lossy());
@@ -93,11 +98,20 @@ pub(super) fn read_output(
         folder: PathBuf::from(format!("{stem}-run")),
         timeseries: Interval::Steps(DEFAULT_STEPS),
         snapshots: Snapshots::StageEnds,
+        files: Vec::new(),
         plots: true,
         clusters: false,
         checkpoints: Some(CheckpointPlan::default()),
         dimensionless: None,
     };
+    if root.value("output").is_some_and(|value| matches!(value.raw(), crate::value::Value::List(_))) {
+        let problem = Problem::rule("[[output]] is a list of tables", "one table [output]");
+        return Err(root.refuse_with_help(
+            "output",
+            problem,
+            "write [[output.files]] for each further format",
+        ));
+    }
     let Some(mut table) = root.optional_table("output")? else { return Ok(default) };
     let folder = table.optional("folder", Text).and_then(|folder| match folder {
         Some(text) if leaves(&text) => {
@@ -113,6 +127,7 @@ pub(super) fn read_output(
     });
     let timeseries = table.value("timeseries").map(|value| read_interval(&value)).transpose();
     let snapshots = table.value("vtk").map(|value| read_snapshots(&value)).transpose();
+    let files = read_output_files(&mut table, sample);
     let plots = table.or("plots", Boolean, default.plots);
     let clusters = table.or("clusters", Boolean, default.clusters);
     let checkpoints = table.value("checkpoints").map(|value| read_checkpoints(&value)).transpose();
@@ -125,6 +140,7 @@ pub(super) fn read_output(
         folder: folder?.map_or(default.folder, PathBuf::from),
         timeseries: timeseries?.unwrap_or(default.timeseries),
         snapshots: snapshots?.unwrap_or(default.snapshots),
+        files: files?,
         plots: plots?,
         clusters: clusters?,
         checkpoints: checkpoints?.unwrap_or(default.checkpoints),
@@ -210,7 +226,7 @@ fn read_interval(value: &ValueReader<'_>) -> Result<Interval, Reported> {
 }
 
 /// `steps` or `interval`, if one of them is given.
-fn read_either(table: &mut TableReader<'_>) -> Result<Option<Interval>, Reported> {
+pub(super) fn read_either(table: &mut TableReader<'_>) -> Result<Option<Interval>, Reported> {
     let steps = table.optional("steps", Integer::at_least(1));
     let interval = table.optional("interval", QuantityRule::of(Dimension::TIME).above(0.0));
     match (steps?, interval?) {

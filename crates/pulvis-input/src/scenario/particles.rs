@@ -2,7 +2,7 @@
 
 use super::arrangement::{Arrangement, MOST_PARTICLES, read_arrangement};
 use super::columns::{ParticleColumn, read_columns};
-use super::materials::{Material, read_material_with_density};
+use super::materials::{Material, needs_density, read_material_with_density};
 use super::radius::read_radius;
 use crate::collision::{Sphere, unfit_for_numbers};
 use crate::context::{Location, Reported};
@@ -20,7 +20,7 @@ use std::path::Path;
 /// Particles that have a material, a distribution of sizes and a start in common.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParticleGroup {
-    /// Index of the material, which has a density.
+    /// Index of the material, which has a density; of the first particle where a file tells them.
     pub material: usize,
     /// Number of particles, at least 1.
     pub count: usize,
@@ -34,6 +34,38 @@ pub struct ParticleGroup {
     pub columns: Vec<ParticleColumn>,
 }
 
+impl ParticleGroup {
+    /// Index of the material of a particle of the group.
+    pub fn material_of(&self, number: usize) -> usize {
+        let grain = match &self.arrangement {
+            Arrangement::File { grains, .. } => grains.get(number),
+            _ => None,
+        };
+        grain.and_then(|grain| grain.material).unwrap_or(self.material)
+    }
+
+    /// Number of particles of a material.
+    pub fn count_of(&self, material: usize) -> usize {
+        match &self.arrangement {
+            Arrangement::File { grains, .. } => {
+                grains.iter().filter(|grain| grain.material.unwrap_or(self.material) == material).count()
+            }
+            _ if self.material == material => self.count,
+            _ => 0,
+        }
+    }
+
+    /// Indices of the materials of all particles, each once, ascending.
+    pub fn materials(&self) -> Vec<usize> {
+        let Arrangement::File { grains, .. } = &self.arrangement else { return vec![self.material] };
+        let mut materials: Vec<usize> =
+            grains.iter().map(|grain| grain.material.unwrap_or(self.material)).collect();
+        materials.sort_unstable();
+        materials.dedup();
+        materials
+    }
+}
+
 /// Velocities at the start of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VelocityPlan {
@@ -41,7 +73,7 @@ pub struct VelocityPlan {
     pub mean: Vector3,
     /// What is added at random: Gaussian components; momentum and temperature are those of the group.
     pub random: GasVelocities,
-    /// Angular velocity of every particle [rad/s].
+    /// Angular velocity of every particle [rad/s]; zero where the file of the arrangement gives them.
     pub angular_velocity: Vector3,
 }
 
@@ -87,10 +119,17 @@ fn read_group(
     folder: &Path,
     first: Option<&[ParticleColumn]>,
 ) -> Result<PlacedGroup, Reported> {
-    let material = read_material_with_density(&mut table, materials);
+    // Asked for first, whoever gives it.
+    table.value("material");
     let count = table.optional("count", Integer::between(1, MOST_PARTICLES));
     let place = table.location("arrangement");
-    let arrangement = table.required_table("arrangement").and_then(|table| read_arrangement(table, folder));
+    let arrangement =
+        table.required_table("arrangement").and_then(|table| read_arrangement(table, materials, folder));
+    let material = match &arrangement {
+        // Whether one is needed is not known.
+        &Err(reported) if table.value("material").is_none() => Err(reported),
+        arrangement => read_group_material(&mut table, materials, arrangement.as_ref().ok()),
+    };
     let radius = table.optional_table("radius").and_then(|radius| radius.map(read_radius).transpose());
     let velocity = table.optional_table("velocity");
     let velocity = velocity.and_then(|velocity| match velocity {
@@ -139,6 +178,28 @@ pub(super) fn check_masses(
         }
     }
     Ok(())
+}
+
+/// The material of a group, or of the first particle of its file; all that particles are made of have a density.
+fn read_group_material(
+    table: &mut TableReader<'_>,
+    materials: &[Material],
+    arrangement: Option<&Arrangement>,
+) -> Result<usize, Reported> {
+    let Some(Arrangement::File { grains, reading, .. }) = arrangement.filter(
+        |arrangement| matches!(arrangement, Arrangement::File { reading, .. } if reading.materials.is_some()),
+    ) else {
+        return read_material_with_density(table, materials);
+    };
+    if table.value("material").is_some() {
+        let found = "the file of the arrangement gives the materials, as its key `materials` says";
+        return Err(table.refuse("material", Problem::rule(found, "no `material`")));
+    }
+    // Those that no particle has need no density.
+    let known = reading.materials.iter().flat_map(|words| words.values().copied());
+    let used = known.filter(|&index| grains.iter().any(|grain| grain.material == Some(index)));
+    used.map(|index| needs_density(table, "arrangement", materials, index)).collect::<Result<Vec<_>, _>>()?;
+    Ok(grains.first().and_then(|grain| grain.material).unwrap_or(0))
 }
 
 /// The number of particles, which has to fit the arrangement.
@@ -233,10 +294,20 @@ fn read_velocity(
         table.optional("standard_deviation", QuantityRule::of(Dimension::VELOCITY).at_least(0.0));
     let zero_momentum = table.or("zero_momentum", Boolean, false);
     let exact_temperature = table.or("exact_temperature", Boolean, false);
-    let angular_velocity = table.or("spin", Vector::of(Dimension::RATE), [0.0; 3]);
-    let in_file = match arrangement {
-        Some(Arrangement::File { grains, .. }) => grains.iter().all(|grain| grain.velocity.is_some()),
-        _ => false,
+    let spin = table.optional("spin", Vector::of(Dimension::RATE));
+    let (in_file, spin_in_file) = match arrangement {
+        Some(Arrangement::File { grains, .. }) => (
+            grains.iter().all(|grain| grain.velocity.is_some()),
+            grains.iter().all(|grain| grain.angular_velocity.is_some()),
+        ),
+        _ => (false, false),
+    };
+    let spin = match spin {
+        Ok(Some(_)) if spin_in_file => {
+            let found = "the file of the arrangement has the columns omegax, omegay, omegaz";
+            Err(table.refuse("spin", Problem::rule(found, "no `spin`")))
+        }
+        spin => spin,
     };
     let refused = |key: &str| {
         let found = "the file of the arrangement has the columns vx, vy, vz";
@@ -265,6 +336,6 @@ fn read_velocity(
     Ok(VelocityPlan {
         mean: mean?.unwrap_or_default().into(),
         random: random?,
-        angular_velocity: angular_velocity?.into(),
+        angular_velocity: spin?.unwrap_or_default().into(),
     })
 }

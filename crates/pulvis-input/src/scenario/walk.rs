@@ -9,6 +9,7 @@ use super::materials::{Material, read_materials};
 use super::observers::{check_discards, durations, read_observers};
 use super::openings::{Openings, read_openings};
 use super::output::read_output;
+use super::output_files::Sample;
 use super::particles::{PlacedGroup, read_particles};
 use super::placement::check_placement;
 use super::programs::{ProgramState, Programs};
@@ -110,7 +111,12 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         openings.as_ref().map_or(Ok(()), |openings| openings.check_observers(&root, &observers))?;
         Ok(observers)
     });
-    let output = read_output(&mut root, file, names.as_deref());
+    let columns: Option<Vec<String>> = groups.as_ref().ok().map(|groups| {
+        let first = groups.first().map(|(group, _)| &group.columns[..]).unwrap_or_default();
+        first.iter().map(|column| column.name.clone()).collect()
+    });
+    let sample = Sample { domain: known, enclosure, columns: columns.as_deref() };
+    let output = read_output(&mut root, file, &sample, names.as_deref());
     let bodies = walls.and_then(|walls| {
         let groups = groups?;
         check_placement(&root, &groups, &walls.walls, known)?;
@@ -165,12 +171,9 @@ fn material_use(walls: &Walls, groups: &[PlacedGroup], openings: &Openings) -> M
         indices.dedup();
         indices
     };
-    let count = |material: usize| -> usize {
-        let of_material = groups.iter().filter(|(group, _)| group.material == material);
-        of_material.map(|(group, _)| group.count).sum()
-    };
+    let count = |material: usize| -> usize { groups.iter().map(|(group, _)| group.count_of(material)).sum() };
     let brought = || openings.inlets.iter().map(|(inlet, _)| inlet.material);
-    let particles = unique(groups.iter().map(|(group, _)| group.material).chain(brought()).collect());
+    let particles = unique(groups.iter().flat_map(|(group, _)| group.materials()).chain(brought()).collect());
     let is_lone = |material: usize| count(material) == 1 && !brought().any(|other| other == material);
     MaterialUse {
         lone: particles.iter().copied().filter(|&material| is_lone(material)).collect(),

@@ -1,6 +1,7 @@
 //! One instant as borrowed columns, and the two kinds of `.vtp` file made of it.
 
 use super::polydata::{self, Cells};
+use crate::frames::Precision;
 use crate::{IoError, file};
 use std::collections::HashSet;
 use std::path::Path;
@@ -22,6 +23,8 @@ pub enum Values<'a> {
     Scalar(&'a [f64]),
     /// One vector per row; three components of 64-bit float in the file.
     Vector(&'a [[f64; 3]]),
+    /// One tensor per row; nine components of 64-bit float in the file, xx, xy, xz, yx and so on.
+    Tensor(&'a [[f64; 9]]),
     /// One signed whole number per row; 64-bit integer in the file.
     Integer(&'a [i64]),
     /// One identifier per row; widened to a 64-bit integer in the file, which every reader knows.
@@ -39,6 +42,11 @@ impl<'a> Column<'a> {
         Self { name, values: Values::Vector(values) }
     }
 
+    /// A column of tensors.
+    pub fn tensor(name: &'a str, values: &'a [[f64; 9]]) -> Self {
+        Self { name, values: Values::Tensor(values) }
+    }
+
     /// A column of signed whole numbers.
     pub fn integer(name: &'a str, values: &'a [i64]) -> Self {
         Self { name, values: Values::Integer(values) }
@@ -54,6 +62,7 @@ impl<'a> Column<'a> {
         match self.values {
             Values::Scalar(values) => values.len(),
             Values::Vector(values) => values.len(),
+            Values::Tensor(values) => values.len(),
             Values::Integer(values) => values.len(),
             Values::Index(values) => values.len(),
         }
@@ -99,9 +108,18 @@ pub struct WallFrame<'a> {
 /// # Errors
 /// A column of the wrong length, a name used twice, or a file that cannot be written.
 pub fn write_particles(path: &Path, frame: &ParticleFrame<'_>) -> Result<(), IoError> {
+    write_particles_as(path, frame, Precision::Double)
+}
+
+/// The same with numbers of this precision.
+pub(super) fn write_particles_as(
+    path: &Path,
+    frame: &ParticleFrame<'_>,
+    precision: Precision,
+) -> Result<(), IoError> {
     check(frame.columns, frame.positions.len(), "particles")?;
     file::replace(path, |file| {
-        polydata::write(file, frame.positions.as_flattened(), Cells::Vertices, frame.columns)
+        polydata::write(file, frame.positions.as_flattened(), Cells::Vertices, frame.columns, precision)
     })
 }
 
@@ -110,9 +128,18 @@ pub fn write_particles(path: &Path, frame: &ParticleFrame<'_>) -> Result<(), IoE
 /// # Errors
 /// A column of the wrong length, a name used twice, or a file that cannot be written.
 pub fn write_contacts(path: &Path, frame: &ContactFrame<'_>) -> Result<(), IoError> {
+    write_contacts_as(path, frame, Precision::Double)
+}
+
+/// The same with numbers of this precision.
+pub(super) fn write_contacts_as(
+    path: &Path,
+    frame: &ContactFrame<'_>,
+    precision: Precision,
+) -> Result<(), IoError> {
     check(frame.columns, frame.ends.len(), "contacts")?;
     let coordinates = frame.ends.as_flattened().as_flattened();
-    file::replace(path, |file| polydata::write(file, coordinates, Cells::Lines, frame.columns))
+    file::replace(path, |file| polydata::write(file, coordinates, Cells::Lines, frame.columns, precision))
 }
 
 /// Writes walls as lines of two points each: `path` should end in `.vtp`.
@@ -123,7 +150,7 @@ pub fn write_walls(path: &Path, frame: &WallFrame<'_>) -> Result<(), IoError> {
     let columns = [Column::scalar("radius", frame.radii)];
     check(&columns, frame.ends.len(), "walls")?;
     let coordinates = frame.ends.as_flattened().as_flattened();
-    file::replace(path, |file| polydata::write(file, coordinates, Cells::Lines, &columns))
+    file::replace(path, |file| polydata::write(file, coordinates, Cells::Lines, &columns, Precision::Double))
 }
 
 /// Every column has one value per row and its own name.

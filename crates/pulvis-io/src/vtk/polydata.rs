@@ -1,6 +1,7 @@
 //! The XML of a `PolyData` file, streamed: nothing is held in memory but a few kilobytes.
 
 use super::frame::{Column, Values};
+use crate::frames::Precision;
 use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderWriter;
 use std::io::{self, Write};
@@ -20,6 +21,7 @@ pub(crate) fn write(
     coordinates: &[f64],
     cells: Cells,
     columns: &[Column<'_>],
+    precision: Precision,
 ) -> io::Result<()> {
     let points = coordinates.len() / 3;
     let (vertices, lines) = match cells {
@@ -37,16 +39,15 @@ pub(crate) fn write(
         "<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{vertices}\" NumberOfLines=\"{lines}\" \
          NumberOfStrips=\"0\" NumberOfPolys=\"0\">"
     )?;
-    section(out, "Points", |out| {
-        array(out, "Points", "Float64", 3, coordinates.iter().map(|x| x.to_le_bytes()))
-    })?;
+    section(out, "Points", |out| floats(out, "Points", 3, coordinates, precision))?;
+    let columns = |out: &mut _| columns.iter().try_for_each(|column| write_column(out, column, precision));
     match cells {
         Cells::Vertices => {
-            section(out, "PointData", |out| columns.iter().try_for_each(|column| write_column(out, column)))?;
+            section(out, "PointData", columns)?;
             section(out, "Verts", |out| topology(out, points, 1))?;
         }
         Cells::Lines => {
-            section(out, "CellData", |out| columns.iter().try_for_each(|column| write_column(out, column)))?;
+            section(out, "CellData", columns)?;
             section(out, "Lines", |out| topology(out, points, 2))?;
         }
     }
@@ -59,16 +60,31 @@ fn section<W: Write>(out: &mut W, tag: &str, body: impl FnOnce(&mut W) -> io::Re
     writeln!(out, "</{tag}>")
 }
 
-fn write_column(out: &mut impl Write, column: &Column<'_>) -> io::Result<()> {
+fn write_column(out: &mut impl Write, column: &Column<'_>, precision: Precision) -> io::Result<()> {
     let name = column.name;
     match column.values {
-        Values::Scalar(values) => array(out, name, "Float64", 1, values.iter().map(|x| x.to_le_bytes())),
-        Values::Vector(values) => {
-            array(out, name, "Float64", 3, values.as_flattened().iter().map(|x| x.to_le_bytes()))
-        }
+        Values::Scalar(values) => floats(out, name, 1, values, precision),
+        Values::Vector(values) => floats(out, name, 3, values.as_flattened(), precision),
+        Values::Tensor(values) => floats(out, name, 9, values.as_flattened(), precision),
         Values::Integer(values) => array(out, name, "Int64", 1, values.iter().map(|x| x.to_le_bytes())),
         Values::Index(values) => {
             array(out, name, "Int64", 1, values.iter().map(|&x| i64::from(x).to_le_bytes()))
+        }
+    }
+}
+
+/// An array of floating numbers.
+fn floats(
+    out: &mut impl Write,
+    name: &str,
+    components: usize,
+    values: &[f64],
+    precision: Precision,
+) -> io::Result<()> {
+    match precision {
+        Precision::Double => array(out, name, "Float64", components, values.iter().map(|x| x.to_le_bytes())),
+        Precision::Single => {
+            array(out, name, "Float32", components, values.iter().map(|&x| (x as f32).to_le_bytes()))
         }
     }
 }
@@ -84,9 +100,15 @@ fn topology(out: &mut impl Write, points: usize, size: usize) -> io::Result<()> 
 const CHUNK: usize = 6144;
 
 /// One array: the payload's length [byte] as a 64-bit integer and the payload, in one base64 stream.
-fn array<I>(out: &mut impl Write, name: &str, kind: &str, components: usize, values: I) -> io::Result<()>
+fn array<I, const BYTES: usize>(
+    out: &mut impl Write,
+    name: &str,
+    kind: &str,
+    components: usize,
+    values: I,
+) -> io::Result<()>
 where
-    I: ExactSizeIterator<Item = [u8; 8]>,
+    I: ExactSizeIterator<Item = [u8; BYTES]>,
 {
     let name = escape(name);
     writeln!(
@@ -94,7 +116,7 @@ where
         "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"binary\">"
     )?;
     let mut encoder = EncoderWriter::new(&mut *out, &STANDARD);
-    encoder.write_all(&(8 * values.len() as u64).to_le_bytes())?;
+    encoder.write_all(&((BYTES * values.len()) as u64).to_le_bytes())?;
     // The encoder works on what one call hands it: single numbers would make it four times slower.
     let mut chunk = Vec::with_capacity(CHUNK);
     for value in values {

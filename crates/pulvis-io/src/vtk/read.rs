@@ -9,12 +9,13 @@ use std::path::Path;
 
 /// The numbers of a column.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Numbers {
     /// One number per row.
     Scalar(Vec<f64>),
     /// One vector per row.
     Vector(Vec<[f64; 3]>),
+    /// One tensor per row, xx, xy, xz, yx and so on.
+    Tensor(Vec<[f64; 9]>),
     /// One whole number per row.
     Integer(Vec<i64>),
 }
@@ -50,7 +51,7 @@ impl PolyData {
         match self.column(name)? {
             Numbers::Scalar(values) => Some(values.clone()),
             Numbers::Integer(values) => Some(values.iter().map(|&value| value as f64).collect()),
-            Numbers::Vector(_) => None,
+            Numbers::Vector(_) | Numbers::Tensor(_) => None,
         }
     }
 
@@ -59,6 +60,7 @@ impl PolyData {
         let columns = self.columns.iter().map(|(name, numbers)| match numbers {
             Numbers::Scalar(values) => Column::scalar(name, values),
             Numbers::Vector(values) => Column::vector(name, values),
+            Numbers::Tensor(values) => Column::tensor(name, values),
             Numbers::Integer(values) => Column::integer(name, values),
         });
         columns.collect()
@@ -75,6 +77,7 @@ impl Numbers {
         match self {
             Self::Scalar(values) => values.len(),
             Self::Vector(values) => values.len(),
+            Self::Tensor(values) => values.len(),
             Self::Integer(values) => values.len(),
         }
     }
@@ -163,18 +166,32 @@ fn parse(text: &str) -> Result<PolyData, String> {
 /// The numbers of an array: length [byte] and payload in one text.
 fn numbers(head: &str, body: &str) -> Result<Numbers, String> {
     let bytes = STANDARD.decode(body).map_err(|error| format!("is no base64 text: {error}"))?;
-    let (words, rest) = bytes.as_chunks::<8>();
-    let Some((length, words)) = words.split_first().filter(|_| rest.is_empty()) else {
+    let Some((length, numbers)) = bytes.split_first_chunk::<8>() else {
         return Err("has broken numbers".to_owned());
     };
-    if u64::from_le_bytes(*length) != 8 * words.len() as u64 {
+    let single = attribute(head, "type") == Some("Float32");
+    if !numbers.len().is_multiple_of(if single { 4 } else { 8 }) {
+        return Err("has broken numbers".to_owned());
+    }
+    if u64::from_le_bytes(*length) != numbers.len() as u64 {
         return Err("is not as long as it announces".to_owned());
     }
-    let floats = || words.iter().map(|word| f64::from_le_bytes(*word)).collect::<Vec<_>>();
+    let words = numbers.as_chunks::<8>().0;
+    let floats = || -> Vec<f64> {
+        if single {
+            numbers.as_chunks::<4>().0.iter().map(|word| f64::from(f32::from_le_bytes(*word))).collect()
+        } else {
+            words.iter().map(|word| f64::from_le_bytes(*word)).collect()
+        }
+    };
+    let tells = |components: usize| numbers.len().is_multiple_of(components * if single { 4 } else { 8 });
     match (attribute(head, "type"), attribute(head, "NumberOfComponents")) {
-        (Some("Float64"), Some("1")) => Ok(Numbers::Scalar(floats())),
-        (Some("Float64"), Some("3")) if words.len() % 3 == 0 => {
+        (Some("Float64" | "Float32"), Some("1")) => Ok(Numbers::Scalar(floats())),
+        (Some("Float64" | "Float32"), Some("3")) if tells(3) => {
             Ok(Numbers::Vector(floats().as_chunks().0.to_vec()))
+        }
+        (Some("Float64" | "Float32"), Some("9")) if tells(9) => {
+            Ok(Numbers::Tensor(floats().as_chunks().0.to_vec()))
         }
         (Some("Int64"), Some("1")) => {
             Ok(Numbers::Integer(words.iter().map(|word| i64::from_le_bytes(*word)).collect()))

@@ -1,8 +1,11 @@
 //! The frames of a run, numbered, with an index that is complete after every frame.
 
-use super::frame::{ContactFrame, ParticleFrame, WallFrame, write_contacts, write_particles, write_walls};
+use super::frame::{
+    ContactFrame, ParticleFrame, WallFrame, write_contacts_as, write_particles_as, write_walls,
+};
 use super::index::{Entry, read_series, write_blocks, write_series};
 use super::read::Frame;
+use crate::frames::Precision;
 use crate::{IoError, file};
 use std::path::{Path, PathBuf};
 
@@ -15,6 +18,7 @@ pub struct SeriesWriter {
     folder: PathBuf,
     prefix: String,
     entries: Vec<Entry>,
+    precision: Precision,
 }
 
 impl SeriesWriter {
@@ -29,7 +33,7 @@ impl SeriesWriter {
         let folder = folder.into();
         file::create_folder(&folder)?;
         let prefix = if prefix.is_empty() { String::new() } else { format!("{prefix}_") };
-        Ok(Self { folder, prefix, entries: Vec::new() })
+        Ok(Self { folder, prefix, entries: Vec::new(), precision: Precision::Double })
     }
 
     /// Goes on with the series of an interrupted run: its first `frames` frames stay, later ones leave the index and are
@@ -54,6 +58,12 @@ impl SeriesWriter {
         Ok(series)
     }
 
+    /// The same series with particles and contacts of this precision.
+    #[must_use]
+    pub fn with_precision(self, precision: Precision) -> Self {
+        Self { precision, ..self }
+    }
+
     /// Writes one frame at `time` \[s\] and lists it in the index; returns the frame's file.
     ///
     /// # Errors
@@ -71,8 +81,8 @@ impl SeriesWriter {
             return Err(IoError::FrameTime { time, previous });
         }
         let [particle_file, contact_file, wall_file, frame_file, _] = self.next_files();
-        write_particles(&self.folder.join(&particle_file), particles)?;
-        write_contacts(&self.folder.join(&contact_file), contacts)?;
+        write_particles_as(&self.folder.join(&particle_file), particles, self.precision)?;
+        write_contacts_as(&self.folder.join(&contact_file), contacts, self.precision)?;
         write_walls(&self.folder.join(&wall_file), walls)?;
         let path = self.folder.join(&frame_file);
         let mut blocks = vec![("Particles", &*particle_file)];

@@ -174,6 +174,7 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
             snapshots: 0.0,
             frame: 0.0,
             frames: 0.0,
+            files: 0.0,
             checkpoints: 0.0,
             free: None,
         },
@@ -184,7 +185,7 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
     let most = forecast.particles.max(scenario.expected_particles());
     refuse_full_disk(scenario, &scenario.output.folder, most, columns, &forecast.stages)?;
     forecast.disk = disk_forecast(scenario, &scenario.output.folder, most, columns, &forecast.stages);
-    forecast.frame_seconds = forecast.disk.snapshots / WRITTEN;
+    forecast.frame_seconds = (forecast.disk.snapshots + forecast.disk.files) / WRITTEN;
     forecast.warn_of_resources(&scenario.output.folder);
     // Last: the trials make steps of the prepared simulation.
     let durations: Vec<Option<f64>> =

@@ -3,11 +3,15 @@
 use std::path::Path;
 
 use pulvis_input::Problem;
-use pulvis_input::scenario::{Interval, Refusal, Scenario, Snapshots};
+use pulvis_input::scenario::{
+    ContactFields, DEFAULT_CONTACT_FIELDS, DEFAULT_PARTICLE_FIELDS, FileFormat, Interval, OutputFiles,
+    Refusal, Scenario, Snapshots,
+};
 
 use super::allow::refuse_unless_allowed;
 use super::check::StageForecast;
 use super::error::PrepareError;
+use super::fields::component_count;
 use super::resources::{free_disk_space, size_in_words};
 
 /// Bytes of a number in the time series, on the average.
@@ -39,6 +43,8 @@ pub struct DiskForecast {
     pub frame: f64,
     /// Number of frames.
     pub frames: f64,
+    /// All files of `[[output.files]]` [byte].
+    pub files: f64,
     /// All checkpoints that are kept, and one that is being written [byte].
     pub checkpoints: f64,
     /// Room that is left [byte]; `None` where the system does not say.
@@ -48,7 +54,7 @@ pub struct DiskForecast {
 impl DiskForecast {
     /// All files [byte].
     pub fn total(&self) -> f64 {
-        self.timeseries + self.snapshots + self.checkpoints
+        self.timeseries + self.snapshots + self.files + self.checkpoints
     }
 }
 
@@ -74,6 +80,7 @@ pub(super) fn disk_forecast(
         snapshots: frames * frame,
         frame,
         frames,
+        files: scenario.output.files.iter().map(|files| further(files, particles, stages)).sum(),
         checkpoints: checkpoints(scenario) * particles as f64 * STATE,
         free: free_disk_space(folder),
     }
@@ -99,13 +106,46 @@ pub(super) fn refuse_full_disk(
         size_in_words(free),
         folder.display()
     );
-    let paths = match least.snapshots > least.timeseries {
-        true => ["output.vtk", "output"],
-        false => ["output.timeseries", "output"],
+    let paths = if least.files > least.snapshots.max(least.timeseries) {
+        ["output.files", "output"]
+    } else if least.snapshots > least.timeseries {
+        ["output.vtk", "output"]
+    } else {
+        ["output.timeseries", "output"]
     };
     let problem = Problem::rule(found, "files that fit onto the disk");
     let help = "write less often, or choose a folder on another disk with `--output DIR`";
     refuse_unless_allowed(scenario, Refusal::Disk, &[paths[0], paths[1], "stages[0]"], problem, help)
+}
+
+/// The components of fields together.
+fn components<'a>(fields: impl Iterator<Item = &'a str>) -> f64 {
+    fields.map(component_count).sum::<usize>() as f64
+}
+
+/// What the files of a block take [byte], with regions as large as the sample.
+fn further(files: &OutputFiles, particles: usize, stages: &[StageForecast]) -> f64 {
+    let between = |stage: &StageForecast| files.every.map_or(0.0, |interval| stage.count(interval));
+    let frames = 1.0 + stages.iter().map(|stage| 1.0 + between(stage)).sum::<f64>();
+    let number = match files.format {
+        FileFormat::Vtk => 4.0 / 3.0 * 8.0,
+        FileFormat::Npz => 8.0,
+        FileFormat::LammpsDump | FileFormat::Xyz | FileFormat::Csv => NUMBER,
+    };
+    let number = if files.single_precision { 0.5 * number } else { number };
+    let of_particle = 3.0
+        + match &files.fields {
+            Some(names) => components(names.iter().map(String::as_str)),
+            None => components(DEFAULT_PARTICLE_FIELDS.iter().copied()),
+        };
+    // VTK has both ends of a contact.
+    let ends = if files.format == FileFormat::Vtk { 6.0 } else { 0.0 };
+    let of_contact = match &files.contacts {
+        ContactFields::None => 0.0,
+        ContactFields::Default => ends + components(DEFAULT_CONTACT_FIELDS.iter().copied()),
+        ContactFields::Named(names) => ends + components(names.iter().map(String::as_str)),
+    };
+    frames * particles as f64 * number * (of_particle + CONTACTS * of_contact)
 }
 
 /// Checkpoints that are on the disk at the same time at most.

@@ -17,6 +17,7 @@ use super::averages::AVERAGES;
 use super::checkpoint::is_checkpoint;
 use super::error::{PrepareError, RunError};
 use super::explain::ALARM;
+use super::fields::FIELDS;
 use super::lock::{LOCK, Lock, lock};
 use super::observers::is_histogram;
 
@@ -243,7 +244,7 @@ fn may_be_written(name: &str) -> bool {
         Some((name, "png" | "svg")) => ["energies", "stress", "force_displacement"].contains(&name),
         _ => false,
     };
-    let others = [RECORD, LIST, ALARM, AVERAGES, "timeseries.csv", "series.pvd", "particles.png"];
+    let others = [RECORD, LIST, ALARM, AVERAGES, FIELDS, "timeseries.csv", "series.pvd", "particles.png"];
     is_checkpoint(name)
         || is_histogram(name)
         || is_picture()

@@ -1,75 +1,258 @@
 //! One instant of a run: what files hold of it and pictures show.
 
-use pulvis_core::{ContactPartner, ContactView, Simulation};
-use pulvis_input::scenario::Scenario;
+use pulvis_boundary::Region;
+use pulvis_core::{ContactPartner, ContactView, Simulation, Vectors};
+use pulvis_input::scenario::{
+    ContactFields, DEFAULT_CONTACT_FIELDS, DEFAULT_PARTICLE_FIELDS, OutputFiles, Scenario,
+};
 use pulvis_io::vtk::{Frame, Numbers, PolyData};
+use pulvis_math::Vector3;
 
 use super::outlines::walls;
+use super::particle_sums::ParticleSums;
+
+/// What a frame holds.
+#[derive(Clone, Debug)]
+pub(crate) struct Selection<'a> {
+    /// Names of what there is of particles; `None` is the default.
+    fields: Option<&'a [String]>,
+    /// Names of what there is of contacts.
+    contacts: Vec<&'a str>,
+    /// Names of the columns of memory; `None`: those that contacts have just now.
+    memory: Option<Vec<&'static str>>,
+    /// Where particles and contact points lie.
+    region: Option<Region>,
+}
+
+impl<'a> Selection<'a> {
+    /// What the key `vtk` writes.
+    pub(crate) fn default_of_runs() -> Self {
+        Self { fields: None, contacts: DEFAULT_CONTACT_FIELDS.to_vec(), memory: None, region: None }
+    }
+
+    /// Names of what there is of particles, which have these further columns.
+    pub(super) fn fields<'b>(&self, own: impl Iterator<Item = &'b str>) -> Vec<&'b str>
+    where
+        'a: 'b,
+    {
+        match self.fields {
+            Some(fields) => fields.iter().map(String::as_str).collect(),
+            None => DEFAULT_PARTICLE_FIELDS.iter().copied().chain(own).collect(),
+        }
+    }
+
+    /// Names of the columns of memory, if they are the same all the time.
+    pub(super) fn memory(&self) -> &[&'static str] {
+        self.memory.as_deref().unwrap_or_default()
+    }
+
+    /// Names of what there is of contacts.
+    pub(super) fn contacts(&self) -> &[&'a str] {
+        &self.contacts
+    }
+
+    /// Whether there is anything of contacts.
+    pub(crate) fn has_contacts(&self) -> bool {
+        !self.contacts.is_empty()
+    }
+
+    /// What a block of files asks for.
+    pub(crate) fn of(files: &'a OutputFiles, scenario: &Scenario) -> Self {
+        let contacts = match &files.contacts {
+            ContactFields::None => Vec::new(),
+            ContactFields::Default => DEFAULT_CONTACT_FIELDS.to_vec(),
+            ContactFields::Named(names) => names.iter().map(String::as_str).collect(),
+        };
+        let memory = Some(memory_columns(scenario));
+        Self { fields: files.fields.as_deref(), contacts, memory, region: files.region }
+    }
+}
+
+/// The columns of memory of all contacts of all stages: readers of one file with all instants want the same columns in each.
+fn memory_columns(scenario: &Scenario) -> Vec<&'static str> {
+    let mut names = Vec::new();
+    let contacts = scenario.contacts.iter().chain(scenario.stages.iter().flat_map(|stage| &stage.contacts));
+    for name in contacts.flat_map(|contact| contact.model.memory_layout().names()) {
+        let name = column_name(name);
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// The name of a column of memory without what follows it.
+fn column_name(name: &'static str) -> &'static str {
+    name.split(' ').next().unwrap_or(name)
+}
 
 /// Particles in the order of their ids, contacts and walls at the present time.
 pub(crate) fn frame_of(scenario: &Scenario, simulation: &Simulation) -> Frame {
+    selected_frame(scenario, simulation, &Selection::default_of_runs())
+}
+
+/// What is asked for of the present state.
+pub(crate) fn selected_frame(
+    scenario: &Scenario,
+    simulation: &Simulation,
+    selection: &Selection<'_>,
+) -> Frame {
     let contacts = Contacts::of(simulation);
     Frame {
-        particles: particles(simulation, &contacts),
-        contacts: contacts.into_lines(),
+        particles: particles(simulation, &contacts, selection),
+        contacts: contacts.into_lines(simulation, selection),
         walls: walls(scenario, simulation),
     }
 }
 
-fn particles(simulation: &Simulation, contacts: &Contacts) -> PolyData {
+fn particles(simulation: &Simulation, contacts: &Contacts, selection: &Selection<'_>) -> PolyData {
     let particles = simulation.particles();
-    let rows = particles.rows_by_id();
-    let vectors = |column: pulvis_core::Vectors<'_>| -> Vec<[f64; 3]> {
-        rows.iter().map(|&row| column[row].to_array()).collect()
-    };
+    let mut rows = particles.rows_by_id();
+    // Sums over contacts need all particles.
+    let sums = ParticleSums::new(contacts, simulation, &rows);
+    let mut kept: Vec<usize> = (0..rows.len()).collect();
+    if let Some(region) = &selection.region {
+        kept.retain(|&place| region.contains(particles.positions()[rows[place]], simulation.domain()));
+        rows = kept.iter().map(|&place| rows[place]).collect();
+    }
+    let vectors =
+        |column: Vectors<'_>| -> Vec<[f64; 3]> { rows.iter().map(|&row| column[row].to_array()).collect() };
     let scalars = |column: &[f64]| Numbers::Scalar(rows.iter().map(|&row| column[row]).collect());
-    let ids: Vec<i64> = rows.iter().map(|&row| i64::from(particles.ids()[row])).collect();
-    let materials = rows.iter().map(|&row| i64::from(particles.materials()[row])).collect();
-    let coordination = contacts.coordination(&ids);
-    let own = [
-        ("id", Numbers::Integer(ids)),
-        ("type", Numbers::Integer(materials)),
-        ("radius", scalars(particles.radii())),
-        ("v", Numbers::Vector(vectors(particles.velocities()))),
-        ("omega", Numbers::Vector(vectors(particles.angular_velocities()))),
-        ("f", Numbers::Vector(vectors(particles.forces()))),
-        ("torque", Numbers::Vector(vectors(particles.torques()))),
-        ("coordination", Numbers::Integer(coordination)),
-    ];
-    let further = particles.columns().iter().map(|column| (column.name.clone(), scalars(&column.values)));
-    let columns = own.into_iter().map(|(name, numbers)| (name.to_owned(), numbers)).chain(further);
-    PolyData { points: vectors(particles.positions()), columns: columns.collect() }
+    let computed =
+        |value: &dyn Fn(usize) -> f64| Numbers::Scalar(rows.iter().map(|&row| value(row)).collect());
+    let column = |name: &str| match name {
+        "id" => Numbers::Integer(rows.iter().map(|&row| i64::from(particles.ids()[row])).collect()),
+        "type" => Numbers::Integer(rows.iter().map(|&row| i64::from(particles.materials()[row])).collect()),
+        "radius" => scalars(particles.radii()),
+        "v" => Numbers::Vector(vectors(particles.velocities())),
+        "omega" => Numbers::Vector(vectors(particles.angular_velocities())),
+        "f" => Numbers::Vector(vectors(particles.forces())),
+        "torque" => Numbers::Vector(vectors(particles.torques())),
+        "coordination" => Numbers::Integer(sums.coordination(&kept)),
+        "mass" => scalars(particles.masses()),
+        "stress" => Numbers::Tensor(sums.stress(&kept)),
+        "kinetic_translation" => {
+            computed(&|row| 0.5 * particles.masses()[row] * particles.velocities()[row].norm_squared())
+        }
+        "kinetic_rotation" => computed(&|row| {
+            // I = 2/5 m a^2 of a sphere.
+            let inertia = 0.4 * particles.masses()[row] * particles.radii()[row] * particles.radii()[row];
+            0.5 * inertia * particles.angular_velocities()[row].norm_squared()
+        }),
+        "stored_energy" => Numbers::Scalar(sums.stored_energy(&kept)),
+        own => match particles.column(own) {
+            Some(own) => scalars(&own.values),
+            None => Numbers::Scalar(vec![f64::NAN; rows.len()]),
+        },
+    };
+    let names = selection.fields(particles.columns().iter().map(|column| column.name.as_str()));
+    let columns = names.into_iter().map(|name| (name.to_owned(), column(name))).collect();
+    PolyData { points: vectors(particles.positions()), columns }
 }
 
 /// All contacts, column by column. The second id of a wall contact is −1 − the wall's place.
 #[derive(Default)]
-struct Contacts {
-    ends: Vec<[[f64; 3]; 2]>,
-    first: Vec<i64>,
-    second: Vec<i64>,
-    force: Vec<[f64; 3]>,
+pub(super) struct Contacts {
+    /// Centres; of a wall the nearest point of its surface [m].
+    pub(super) ends: Vec<[[f64; 3]; 2]>,
+    pub(super) first: Vec<i64>,
+    pub(super) second: Vec<i64>,
+    /// Force on the first body [N].
+    pub(super) force: Vec<[f64; 3]>,
     normal_force: Vec<f64>,
-    overlap: Vec<f64>,
+    pub(super) overlap: Vec<f64>,
+    pub(super) stored_energy: Vec<f64>,
     /// What contacts remember, by the names of the columns; NaN where a contact has no such column.
     memory: Vec<(&'static str, Vec<f64>)>,
 }
 
 impl Contacts {
     /// The contacts as lines with their columns.
-    fn into_lines(self) -> PolyData {
-        let own = [
-            ("id1", Numbers::Integer(self.first)),
-            ("id2", Numbers::Integer(self.second)),
-            ("force", Numbers::Vector(self.force)),
-            ("normal_force", Numbers::Scalar(self.normal_force)),
-            ("overlap", Numbers::Scalar(self.overlap)),
-        ];
-        let memory = self.memory.into_iter().map(|(name, values)| (name, Numbers::Scalar(values)));
-        let columns = own.into_iter().chain(memory);
-        PolyData {
-            points: self.ends.into_iter().flatten().collect(),
-            columns: columns.map(|(name, numbers)| (name.to_owned(), numbers)).collect(),
+    fn into_lines(self, simulation: &Simulation, selection: &Selection<'_>) -> PolyData {
+        if selection.contacts.is_empty() {
+            return PolyData::default();
         }
+        let needed = selection.region.is_some() || selection.contacts.contains(&"point");
+        let points = if needed { self.points(simulation) } else { Vec::new() };
+        let is_inside = |contact: usize| {
+            let region = selection.region.as_ref();
+            region.is_none_or(|region| region.contains(points[contact].into(), simulation.domain()))
+        };
+        let kept: Vec<usize> = (0..self.first.len()).filter(|&contact| is_inside(contact)).collect();
+        let mut columns = Vec::new();
+        for &name in &selection.contacts {
+            if name == "memory" {
+                let now = || self.memory.iter().map(|(name, _)| *name).collect();
+                for name in selection.memory.clone().unwrap_or_else(now) {
+                    columns.push((name.to_owned(), self.remembered(name, &kept)));
+                }
+            } else {
+                columns.push((name.to_owned(), self.column(name, &points, &kept)));
+            }
+        }
+        PolyData { points: kept.iter().flat_map(|&contact| self.ends[contact]).collect(), columns }
+    }
+
+    fn column(&self, name: &str, points: &[[f64; 3]], kept: &[usize]) -> Numbers {
+        let vectors = |vector: &dyn Fn(usize) -> [f64; 3]| {
+            Numbers::Vector(kept.iter().map(|&contact| vector(contact)).collect())
+        };
+        let integers =
+            |values: &[i64]| Numbers::Integer(kept.iter().map(|&contact| values[contact]).collect());
+        match name {
+            "id1" => integers(&self.first),
+            "id2" => integers(&self.second),
+            "force" => vectors(&|contact| self.force[contact]),
+            "normal_force" => scalars(&self.normal_force, kept),
+            "overlap" => scalars(&self.overlap, kept),
+            "stored_energy" => scalars(&self.stored_energy, kept),
+            "point" => vectors(&|contact| points[contact]),
+            "branch" => vectors(&|contact| self.branch(contact).to_array()),
+            "normal" => vectors(&|contact| self.normal(contact).to_array()),
+            _ => vectors(&|contact| {
+                let force = Vector3::from(self.force[contact]);
+                (force - self.normal(contact) * self.normal_force[contact]).to_array()
+            }),
+        }
+    }
+
+    /// What contacts remember in a column of this name.
+    fn remembered(&self, name: &str, kept: &[usize]) -> Numbers {
+        match self.memory.iter().find(|(known, _)| *known == name) {
+            Some((_, values)) => scalars(values, kept),
+            None => Numbers::Scalar(vec![f64::NAN; kept.len()]),
+        }
+    }
+
+    /// From the second centre to the first; of a wall from the nearest point of its surface [m].
+    pub(super) fn branch(&self, contact: usize) -> Vector3 {
+        let [first, second] = self.ends[contact];
+        Vector3::from(first) - Vector3::from(second)
+    }
+
+    /// The direction of the branch.
+    fn normal(&self, contact: usize) -> Vector3 {
+        let branch = self.branch(contact);
+        branch * (1.0 / branch.norm())
+    }
+
+    /// The contact points: between particles in the middle of the overlap, on a wall the nearest point of its surface [m].
+    pub(super) fn points(&self, simulation: &Simulation) -> Vec<[f64; 3]> {
+        let particles = simulation.particles();
+        let (rows, ids) = (particles.rows_by_id(), particles.ids());
+        let radius = |id: i64| {
+            let place = rows.binary_search_by_key(&id, |&row| i64::from(ids[row]));
+            place.map_or(f64::NAN, |place| particles.radii()[rows[place]])
+        };
+        let point = |contact: usize| {
+            let [first, second] = self.ends[contact];
+            if self.second[contact] < 0 {
+                return second;
+            }
+            let lever = radius(self.first[contact]) - 0.5 * self.overlap[contact];
+            (Vector3::from(first) - self.normal(contact) * lever).to_array()
+        };
+        (0..self.first.len()).map(point).collect()
     }
 
     fn of(simulation: &Simulation) -> Self {
@@ -92,19 +275,21 @@ impl Contacts {
         self.force.push(contact.force.to_array());
         self.normal_force.push(contact.normal_force);
         self.overlap.push(contact.overlap);
+        self.stored_energy.push(contact.stored_energy);
         self.remember(contact);
     }
 
     /// Adds the contacts of a later part.
     fn append(&mut self, part: Self) {
         let before = self.first.len();
-        let Self { ends, first, second, force, normal_force, overlap, memory } = part;
+        let Self { ends, first, second, force, normal_force, overlap, stored_energy, memory } = part;
         self.ends.extend(ends);
         self.first.extend(first);
         self.second.extend(second);
         self.force.extend(force);
         self.normal_force.extend(normal_force);
         self.overlap.extend(overlap);
+        self.stored_energy.extend(stored_energy);
         for (name, part) in memory {
             let values = self.memory_of(name);
             values.resize(before, f64::NAN);
@@ -125,26 +310,13 @@ impl Contacts {
     fn remember(&mut self, contact: &ContactView<'_>) {
         let before = self.first.len() - 1;
         for (name, &value) in contact.layout.names().zip(contact.memory) {
-            let name = name.split(' ').next().unwrap_or(name);
-            let values = self.memory_of(name);
+            let values = self.memory_of(column_name(name));
             values.resize(before, f64::NAN);
             values.push(value);
         }
     }
+}
 
-    /// Touching contacts of each particle, walls included; `ids` in ascending order.
-    fn coordination(&self, ids: &[i64]) -> Vec<i64> {
-        let mut counts = vec![0; ids.len()];
-        let mut count = |id: i64| {
-            // Ids of removed particles are missing; a wall has a negative one.
-            if let Ok(index) = ids.binary_search(&id) {
-                counts[index] += 1;
-            }
-        };
-        for contact in (0..self.first.len()).filter(|&contact| self.overlap[contact] > 0.0) {
-            count(self.first[contact]);
-            count(self.second[contact]);
-        }
-        counts
-    }
+fn scalars(values: &[f64], kept: &[usize]) -> Numbers {
+    Numbers::Scalar(kept.iter().map(|&contact| values[contact]).collect())
 }

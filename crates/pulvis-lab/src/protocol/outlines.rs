@@ -4,6 +4,7 @@ use pulvis_boundary::{Cylinder, CylinderSide, WallShape};
 use pulvis_core::Simulation;
 use pulvis_core::walls::Wall;
 use pulvis_input::scenario::Scenario;
+use pulvis_io::frames::Bounds;
 use pulvis_io::picture::{OutlineBox, OutlineCylinder};
 use pulvis_io::vtk::{Numbers, PolyData};
 use pulvis_math::Vector3;
@@ -33,6 +34,25 @@ fn rims(simulation: &Simulation) -> impl Iterator<Item = [[f64; 3]; 2]> {
     let walls = simulation.walls().iter().filter(|wall| wall.present);
     let lines = walls.flat_map(Wall::outline).map(|line| line.map(Vector3::to_array));
     lines.filter(|line| line.iter().flatten().all(|x| x.is_finite()))
+}
+
+/// The box of a run for files that need one: along each axis the period, or the two walls of the box; where there are none,
+/// from the lowest to the highest point of any particle.
+pub(super) fn bounds(scenario: &Scenario, simulation: &Simulation) -> Bounds {
+    let (domain, particles) = (simulation.domain(), simulation.particles());
+    let mut bounds = Bounds { tilt: domain.tilts, periodic: domain.periodic, ..Bounds::default() };
+    for axis in 0..3 {
+        let spans = || particles.positions().iter().zip(particles.radii());
+        let low = spans().map(|(centre, radius)| centre[axis] - radius).fold(f64::INFINITY, f64::min);
+        let high = spans().map(|(centre, radius)| centre[axis] + radius).fold(f64::NEG_INFINITY, f64::max);
+        let [lower, upper] = faces(scenario, simulation, axis);
+        let [mut lower, mut upper] = [lower.unwrap_or(low), upper.unwrap_or(high)];
+        if particles.is_empty() && !(lower.is_finite() && upper.is_finite()) {
+            (lower, upper) = (0.0, 0.0);
+        }
+        (bounds.lower[axis], bounds.upper[axis]) = (lower, upper);
+    }
+    bounds
 }
 
 /// The edges of a tilted cell from its lower corner, which lead to the next images; the block that holds the particles is

@@ -17,18 +17,19 @@ pub(super) fn generate(scenario: &Scenario, domain: &Domain) -> Result<Vec<Parti
     for (place, group) in scenario.particles.iter().enumerate() {
         let radii = radii(scenario, group, place, &mut random)?;
         let centres = centres(scenario, group, place, &radii, domain, &particles, &mut random)?;
-        let density = scenario.materials[group.material].density.unwrap_or(f64::NAN);
-        let mass = |radius: &f64| 4.0 / 3.0 * PI * elementary::powi(*radius, 3) * density;
-        let masses: Vec<f64> = radii.iter().map(mass).collect();
+        let density = |number| scenario.materials[group.material_of(number)].density.unwrap_or(f64::NAN);
+        let mass =
+            |(number, radius): (usize, &f64)| 4.0 / 3.0 * PI * elementary::powi(*radius, 3) * density(number);
+        let masses: Vec<f64> = radii.iter().enumerate().map(mass).collect();
         let gas = group.velocity.random.draw(&masses, &mut random);
         for (number, (radius, position)) in radii.into_iter().zip(centres).enumerate() {
             particles.push(Particle {
-                material: group.material as MaterialIndex,
+                material: group.material_of(number) as MaterialIndex,
                 radius,
                 mass: masses[number],
                 position,
                 velocity: mean_velocity(group, number) + gas[number],
-                angular_velocity: group.velocity.angular_velocity,
+                angular_velocity: angular_velocity(group, number),
             });
         }
     }
@@ -110,4 +111,10 @@ fn grains(group: &ParticleGroup) -> &[Grain] {
 fn mean_velocity(group: &ParticleGroup, number: usize) -> Vector3 {
     let from_file = grains(group).get(number).and_then(|grain| grain.velocity);
     from_file.unwrap_or(Vector3::zero()) + group.velocity.mean
+}
+
+/// The angular velocity of a particle.
+fn angular_velocity(group: &ParticleGroup, number: usize) -> Vector3 {
+    let from_file = grains(group).get(number).and_then(|grain| grain.angular_velocity);
+    from_file.unwrap_or(Vector3::zero()) + group.velocity.angular_velocity
 }

@@ -23,6 +23,7 @@ fn a_run_that_is_stopped_at_one_look_after_the_other_leaves_the_same_files() {
     let [whole, stopped] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     let mut scenario = observed();
     scenario.output.checkpoints = Some(CheckpointPlan { stage_ends: true, ..CheckpointPlan::default() });
+    scenario.output.files = super::files::every_format();
     run(&scenario, whole.path());
     let stop = AtomicBool::new(true);
     let mut watch = |progress: &pulvis_lab::protocol::Progress| {

@@ -2,17 +2,22 @@
 
 use super::writer::{Writer, key, list, number, quantity, text, vector};
 use crate::scenario::{
-    Arrangement, BoxFace, Cuboid, GasVelocities, Growth, ParticleGroup, RadiusDistribution, Scenario,
-    VelocityPlan, Wall, WallShape,
+    Arrangement, BoxFace, Cuboid, FileReading, GasVelocities, Growth, ParticleGroup, RadiusDistribution,
+    Scenario, VelocityPlan, Wall, WallShape,
 };
 use pulvis_boundary::{Disk, PlaneWithHole};
 use pulvis_math::Dimension;
+use std::path::Path;
 
 impl Scenario {
     pub(super) fn write_particles(&self, writer: &mut Writer) {
         for group in &self.particles {
             writer.item("particles");
-            writer.key("material", self.material_text(group.material));
+            // Where the file tells the materials, the group has none.
+            if !matches!(&group.arrangement, Arrangement::File { reading, .. } if reading.materials.is_some())
+            {
+                writer.key("material", self.material_text(group.material));
+            }
             if !matches!(group.arrangement, Arrangement::File { .. } | Arrangement::List(_)) {
                 writer.key("count", group.count.to_string());
             }
@@ -21,7 +26,7 @@ impl Scenario {
                 write_radius(writer, radius);
             }
             writer.table("particles.arrangement");
-            write_arrangement(writer, &group.arrangement);
+            self.write_arrangement(writer, &group.arrangement);
             writer.table("particles.velocity");
             write_velocity(writer, &group.velocity, group);
             if !group.columns.is_empty() {
@@ -30,6 +35,50 @@ impl Scenario {
             for column in &group.columns {
                 writer.key(&column.name, quantity(column.value, column.dimension));
             }
+        }
+    }
+
+    fn write_arrangement(&self, writer: &mut Writer, arrangement: &Arrangement) {
+        match arrangement {
+            Arrangement::Lattice(lattice) => {
+                writer.key("kind", text("lattice"));
+                writer.key("lower", vector(lattice.lower, Dimension::LENGTH));
+                writer.key("counts", list(lattice.counts.map(|count| count.to_string())));
+                writer.key("spacing", quantity(lattice.spacing, Dimension::LENGTH));
+                writer.key("jitter", number(lattice.jitter));
+            }
+            Arrangement::Random(block) => {
+                writer.key("kind", text("random"));
+                write_extent(writer, block);
+            }
+            Arrangement::Aggregate { centre, growth } => {
+                writer.key("kind", text("aggregate"));
+                writer.key("centre", vector(*centre, Dimension::LENGTH));
+                let name = Growth::ALL.iter().find(|(_, other)| other == growth).map_or("", |(name, _)| name);
+                writer.key("growth", text(name));
+            }
+            Arrangement::File { path, reading, grains: _ } => self.write_file(writer, path, reading),
+            Arrangement::List(positions) => {
+                writer.key("kind", text("list"));
+                writer.key("positions", list(positions.iter().map(|at| vector(*at, Dimension::LENGTH))));
+            }
+        }
+    }
+
+    fn write_file(&self, writer: &mut Writer, path: &Path, reading: &FileReading) {
+        let FileReading { format, frame, length_unit, time_unit, materials } = reading;
+        writer.key("kind", text("file"));
+        writer.key("path", text(&path.to_string_lossy()));
+        writer.key("format", text(format.name()));
+        if let Some(frame) = frame {
+            writer.key("frame", frame.to_string());
+        }
+        writer.key("length_unit", quantity(*length_unit, Dimension::LENGTH));
+        writer.key("time_unit", quantity(*time_unit, Dimension::TIME));
+        if let Some(words) = materials {
+            let words =
+                words.iter().map(|(word, &index)| format!("{} = {}", key(word), self.material_text(index)));
+            writer.key("materials", format!("{{ {} }}", words.collect::<Vec<_>>().join(", ")));
         }
     }
 
@@ -172,40 +221,13 @@ pub(in crate::scenario) fn write_radius(writer: &mut Writer, radius: &RadiusDist
     }
 }
 
-fn write_arrangement(writer: &mut Writer, arrangement: &Arrangement) {
-    match arrangement {
-        Arrangement::Lattice(lattice) => {
-            writer.key("kind", text("lattice"));
-            writer.key("lower", vector(lattice.lower, Dimension::LENGTH));
-            writer.key("counts", list(lattice.counts.map(|count| count.to_string())));
-            writer.key("spacing", quantity(lattice.spacing, Dimension::LENGTH));
-            writer.key("jitter", number(lattice.jitter));
-        }
-        Arrangement::Random(block) => {
-            writer.key("kind", text("random"));
-            write_extent(writer, block);
-        }
-        Arrangement::File { path, .. } => {
-            writer.key("kind", text("file"));
-            writer.key("path", text(&path.to_string_lossy()));
-        }
-        Arrangement::Aggregate { centre, growth } => {
-            writer.key("kind", text("aggregate"));
-            writer.key("centre", vector(*centre, Dimension::LENGTH));
-            let name = Growth::ALL.iter().find(|(_, other)| other == growth).map_or("", |(name, _)| name);
-            writer.key("growth", text(name));
-        }
-        Arrangement::List(positions) => {
-            writer.key("kind", text("list"));
-            writer.key("positions", list(positions.iter().map(|at| vector(*at, Dimension::LENGTH))));
-        }
-    }
-}
-
 fn write_velocity(writer: &mut Writer, velocity: &VelocityPlan, group: &ParticleGroup) {
-    let in_file = match &group.arrangement {
-        Arrangement::File { grains, .. } => grains.iter().all(|grain| grain.velocity.is_some()),
-        _ => false,
+    let (in_file, spin_in_file) = match &group.arrangement {
+        Arrangement::File { grains, .. } => (
+            grains.iter().all(|grain| grain.velocity.is_some()),
+            grains.iter().all(|grain| grain.angular_velocity.is_some()),
+        ),
+        _ => (false, false),
     };
     if !in_file {
         writer.key("mean", vector(velocity.mean, Dimension::VELOCITY));
@@ -214,5 +236,7 @@ fn write_velocity(writer: &mut Writer, velocity: &VelocityPlan, group: &Particle
         writer.key("zero_momentum", zero_momentum.to_string());
         writer.key("exact_temperature", exact_temperature.to_string());
     }
-    writer.key("spin", vector(velocity.angular_velocity, Dimension::RATE));
+    if !spin_in_file {
+        writer.key("spin", vector(velocity.angular_velocity, Dimension::RATE));
+    }
 }

@@ -8,6 +8,7 @@ use super::inlets::write_inlets;
 use super::observers::write_observers;
 use super::outlets::write_outlets;
 use super::output::{CheckpointPlan, Interval, OutputPlan, Snapshots};
+use super::output_files::write_output_files;
 use super::start::StartFrom;
 use super::time::TimeStep;
 use super::{Axis, Contact, Material, NamedLaw, Scenario, Stage};
@@ -194,4 +195,5 @@ fn write_output(writer: &mut Writer, output: &OutputPlan, stages: &[Stage]) {
             writer.key("reference_stage", text(&stage.name));
         }
     }
+    write_output_files(writer, &output.files);
 }

@@ -16,6 +16,7 @@ use pulvis_io::table::SeriesPosition;
 use serde::{Deserialize, Serialize};
 
 use super::openings::OpeningsRecord;
+use super::snapshots::BlockRecord;
 pub use find::{FindError, checkpoint_files, has_ended};
 pub(super) use find::{Found, find, of_run};
 pub(super) use keeper::{Keeper, Purpose};
@@ -78,9 +79,8 @@ pub(super) struct RunRecord {
     pub(super) complete: bool,
     /// The time steps of all stages [s].
     pub(super) time_steps: Vec<f64>,
-    /// How often rows, frames and checkpoints at intervals have been due.
+    /// How often rows and checkpoints at intervals have been due.
     pub(super) rows_due: u64,
-    pub(super) frames_due: u64,
     pub(super) checkpoints_due: u64,
     /// Reference lengths of dimensionless columns [m].
     pub(super) reference: Option<[Option<f64>; 3]>,
@@ -88,8 +88,8 @@ pub(super) struct RunRecord {
     pub(super) openings: OpeningsRecord,
     /// Length and hash of the time series.
     pub(super) series: (u64, u64),
-    /// Frames in the index, and the step of the last one.
-    pub(super) frames: Option<(u64, Option<u64>)>,
+    /// How far the files of particles and contacts have come, block by block.
+    pub(super) snapshots: Vec<BlockRecord>,
     /// The files of the run, in the order of its list.
     pub(super) files: Vec<String>,
 }
@@ -168,7 +168,7 @@ impl Checkpoint {
             state.step,
             state.time,
             state.particles.id.len(),
-            run.frames.map_or(0, |(frames, _)| frames),
+            run.snapshots.iter().map(BlockRecord::frames).max().unwrap_or(0),
         )
     }
 

@@ -6,7 +6,7 @@ use std::time::Instant;
 use pulvis_input::scenario::Scenario;
 use pulvis_io::table::TimeSeriesWriter;
 
-use super::{RELATIVE_ERROR, Run, TIME_SERIES, frame_interval};
+use super::{RELATIVE_ERROR, Run, TIME_SERIES};
 use crate::protocol::checkpoint::{Checkpoint, Found, Keeper, Purpose, RunRecord};
 use crate::protocol::error::RunError;
 use crate::protocol::folder::{LIST, OutputFolder};
@@ -43,7 +43,7 @@ impl<'a> Run<'a> {
         // All that can be refused has been: from here on, files are cut back.
         drop_later(&file)?;
         output.cut_back(&record.files)?;
-        let frames = |(frames, last)| Snapshots::resume(output.path(), frames, last);
+        let snapshots = Snapshots::resume(scenario, output.path(), &record.snapshots)?;
         let watch = record
             .watch
             .as_ref()
@@ -63,12 +63,11 @@ impl<'a> Run<'a> {
             openings: Openings::new(scenario, Some(&record.openings)),
             writer,
             rows,
-            snapshots: record.frames.map(frames).transpose()?,
+            snapshots,
             synced: 0,
             began: Instant::now(),
             steps_before: simulation.steps(),
             rows_due: Due::resume(scenario.output.timeseries, record.rows_due),
-            frames_due: frame_interval(scenario).map(|every| Due::resume(every, record.frames_due)),
             checkpoints_due: keeper
                 .plan()
                 .and_then(|plan| plan.every)
@@ -130,7 +129,6 @@ impl<'a> Run<'a> {
             began: _,
             steps_before: _,
             rows_due,
-            frames_due,
             checkpoints_due,
             keeper: _,
             pictures: _,
@@ -143,12 +141,11 @@ impl<'a> Run<'a> {
             complete: false,
             time_steps: plans.iter().map(|plan| plan.time_step).collect(),
             rows_due: rows_due.count(),
-            frames_due: frames_due.as_ref().map_or(0, Due::count),
             checkpoints_due: checkpoints_due.as_ref().map_or(0, Due::count),
             reference: measure.reference(),
             openings: openings.record(),
             series: (series.bytes, series.hash),
-            frames: snapshots.as_ref().map(Snapshots::position),
+            snapshots: snapshots.record()?,
             files: output.names().to_vec(),
         })
     }
@@ -156,7 +153,8 @@ impl<'a> Run<'a> {
     /// The files that a checkpoint knows of and that are not on the disk for certain.
     fn unsynced(&mut self) -> Vec<PathBuf> {
         let names = self.output.names();
-        let grown = [LIST, TIME_SERIES, "series.pvd"].map(str::to_owned);
+        let mut grown = vec![LIST.to_owned(), TIME_SERIES.to_owned()];
+        grown.extend(self.snapshots.growing());
         let files = names[self.synced.min(names.len())..].iter().chain(&grown);
         let files = files.map(|name| self.output.path().join(name)).collect();
         self.synced = names.len();

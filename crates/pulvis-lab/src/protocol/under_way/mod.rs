@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use pulvis_core::{Interactions, Simulation, StepError};
-use pulvis_input::scenario::{Scenario, Snapshots as SnapshotPlan};
+use pulvis_input::scenario::Scenario;
 use pulvis_io::checkpoint::write_text;
 use pulvis_io::table::TimeSeriesWriter;
 
@@ -15,6 +15,7 @@ use super::averages::{self, AVERAGES, Average};
 use super::checkpoint::{Ancestor, Keeper, LATEST, PREVIOUS, stage_file};
 use super::error::RunError;
 use super::explain::{ALARM, AlarmReport, likely_cause};
+use super::fields::{FIELDS, fields};
 use super::folder::OutputFolder;
 use super::kept_rows::KeptRows;
 use super::measure::Measure;
@@ -57,14 +58,13 @@ pub(super) struct Run<'a> {
     openings: Openings,
     writer: TimeSeriesWriter,
     rows: KeptRows,
-    snapshots: Option<Snapshots>,
+    snapshots: Snapshots<'a>,
     output: OutputFolder,
     /// How many of the files of the run are on the disk for certain.
     synced: usize,
     began: Instant,
     steps_before: u64,
     rows_due: Due,
-    frames_due: Option<Due>,
     checkpoints_due: Option<Due>,
     keeper: Keeper,
     pictures: PictureOptions,
@@ -81,6 +81,7 @@ impl<'a> Run<'a> {
     ) -> Result<Self, RunError> {
         let Prepared { simulation, stages: plans, particles: _, sample: _, origin } = prepared;
         let measure = Measure::new(scenario, &simulation);
+        fields(scenario, measure.columns())?.write(&output.file(FIELDS)?)?;
         let writer = TimeSeriesWriter::create(&output.file(TIME_SERIES)?, measure.columns())?;
         let keeper = Keeper::new(scenario, output.path(), version);
         if keeper.plan().is_some() {
@@ -102,16 +103,12 @@ impl<'a> Run<'a> {
             rows: KeptRows::new(measure.column(RELATIVE_ERROR).unwrap_or(0)),
             measure,
             writer,
-            snapshots: match scenario.output.snapshots {
-                SnapshotPlan::Never => None,
-                SnapshotPlan::StageEnds | SnapshotPlan::Every(_) => Some(Snapshots::create(output.path())?),
-            },
+            snapshots: Snapshots::create(scenario, &simulation, output.path())?,
             output,
             synced: 0,
             began: Instant::now(),
             steps_before: simulation.steps(),
             rows_due: due(scenario.output.timeseries),
-            frames_due: frame_interval(scenario).map(due),
             checkpoints_due: keeper.plan().and_then(|plan| plan.every).map(due),
             keeper,
             pictures: PictureOptions::default(),
@@ -191,10 +188,7 @@ impl<'a> Run<'a> {
             if self.rows_due.now(&self.simulation) {
                 self.row(number, &rules)?;
             }
-            let simulation = &self.simulation;
-            if self.frames_due.as_mut().is_some_and(|due| due.now(simulation)) {
-                self.frame()?;
-            }
+            self.snapshots.write_due(scenario, &self.simulation, &mut self.output)?;
             if let Some(ending) = rules.ending(&self.simulation, &self.openings) {
                 break ending;
             }
@@ -228,8 +222,9 @@ impl<'a> Run<'a> {
     fn steps_to_next_look(&self, rules: &StageWatch<'_>) -> u64 {
         let simulation = &self.simulation;
         let pace = PACE - simulation.steps() % PACE;
-        let regular = [Some(&self.rows_due), self.frames_due.as_ref(), self.checkpoints_due.as_ref()];
-        let regular = regular.into_iter().flatten().map(|due| due.steps_left(simulation));
+        let regular = [Some(&self.rows_due), self.checkpoints_due.as_ref()];
+        let regular =
+            regular.into_iter().flatten().chain(self.snapshots.due()).map(|due| due.steps_left(simulation));
         let openings = self.openings.steps_left(simulation);
         regular.fold(pace, u64::min).min(rules.steps_left(simulation)).min(openings).max(1)
     }
@@ -258,10 +253,7 @@ impl<'a> Run<'a> {
     }
 
     fn frame(&mut self) -> Result<(), RunError> {
-        match &mut self.snapshots {
-            Some(snapshots) => snapshots.write(self.scenario, &self.simulation, &mut self.output),
-            None => Ok(()),
-        }
+        self.snapshots.write_all(self.scenario, &self.simulation, &mut self.output)
     }
 
     /// Writes the distributions of forces at the end of a stage.
@@ -347,13 +339,5 @@ impl<'a> Run<'a> {
             pictures,
             can_be_resumed,
         })
-    }
-}
-
-/// How often frames are written, if it is regularly.
-fn frame_interval(scenario: &Scenario) -> Option<pulvis_input::scenario::Interval> {
-    match scenario.output.snapshots {
-        SnapshotPlan::Never | SnapshotPlan::StageEnds => None,
-        SnapshotPlan::Every(interval) => Some(interval),
     }
 }

@@ -1,0 +1,100 @@
+//! Why a file of particles cannot be used.
+
+use thiserror::Error;
+
+/// Why a file of particles cannot be used.
+#[derive(Debug, Error)]
+pub enum PointsError {
+    /// No such file.
+    #[error("there is no file {file}")]
+    Missing {
+        /// The path of the file.
+        file: String,
+    },
+    /// The file cannot be read.
+    #[error("{file} cannot be read: {reason}")]
+    Unreadable {
+        /// The path of the file.
+        file: String,
+        /// The refusal of the operating system.
+        reason: std::io::Error,
+    },
+    /// No particle stands in the file.
+    #[error("{file} holds no particles; expected a line of numbers for each")]
+    Empty {
+        /// The path of the file.
+        file: String,
+    },
+    /// A table without a header whose columns cannot be told.
+    #[error(
+        "{file}:{line}: found {found} columns without names; expected 3 (x, y, z), 4 (and a radius) or 7 (and a velocity), or a line with their names"
+    )]
+    Headless {
+        /// The path of the file.
+        file: String,
+        /// The number of the line, the first is 1.
+        line: usize,
+        /// Number of columns.
+        found: usize,
+    },
+    /// A column that is needed is not there, or one that is there cannot be used.
+    #[error("{file}:{line}: found the columns {found}; expected {expected}")]
+    Columns {
+        /// The path of the file.
+        file: String,
+        /// The number of the line, the first is 1.
+        line: usize,
+        /// The columns.
+        found: String,
+        /// What there should be.
+        expected: String,
+    },
+    /// A line with too few or too many values.
+    #[error("{file}:{line}: found {found} values; expected {expected}, one for each column")]
+    Count {
+        /// The path of the file.
+        file: String,
+        /// The number of the line.
+        line: usize,
+        /// Number of values.
+        found: usize,
+        /// Number of columns.
+        expected: usize,
+    },
+    /// A value that is no finite number, a radius that is not positive, a material that is not known.
+    #[error("{file}:{line}: {column} is {found}; expected {expected}")]
+    Value {
+        /// The path of the file.
+        file: String,
+        /// The number of the line.
+        line: usize,
+        /// The column.
+        column: String,
+        /// The value as written.
+        found: String,
+        /// What it should be.
+        expected: String,
+    },
+    /// A line that does not belong where it stands.
+    #[error("{file}:{line}: found {found}; expected {expected}")]
+    Structure {
+        /// The path of the file.
+        file: String,
+        /// The number of the line; one beyond the last where the file breaks off.
+        line: usize,
+        /// What stands there.
+        found: String,
+        /// What should stand there.
+        expected: String,
+    },
+    /// The file has fewer instants.
+    #[error("{file} holds {found} frames; expected more, for frame {wanted} counted from 0")]
+    Frame {
+        /// The path of the file.
+        file: String,
+        /// Number of instants.
+        found: usize,
+        /// The instant that was asked for.
+        wanted: usize,
+    },
+}

@@ -1,0 +1,95 @@
+//! Particles out of files of Pulvis and of other programs.
+
+mod dump;
+mod error;
+mod lammps_data;
+mod rows;
+mod table;
+mod xyz;
+
+pub use error::PointsError;
+
+use super::arrangement::Grain;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// How a file of particles is read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FileReading {
+    /// The format.
+    pub format: PointsFormat,
+    /// The instant, from 0, of a file that holds several; `None` is the last one.
+    pub frame: Option<usize>,
+    /// What the file's unit of length is [m].
+    pub length_unit: f64,
+    /// What the file's unit of time is [s].
+    pub time_unit: f64,
+    /// The material of each word that the file has for materials; `None`: the file's materials are not asked for.
+    pub materials: Option<BTreeMap<String, usize>>,
+}
+
+/// A format of particle files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointsFormat {
+    /// Values separated by commas or blanks.
+    Table,
+    /// A text dump of LAMMPS.
+    LammpsDump,
+    /// A data file of LAMMPS, atom style sphere.
+    LammpsData,
+    /// XYZ, extended or plain.
+    Xyz,
+}
+
+impl PointsFormat {
+    /// All of them, with their names in a scenario.
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("table", Self::Table),
+        ("lammps-dump", Self::LammpsDump),
+        ("lammps-data", Self::LammpsData),
+        ("xyz", Self::Xyz),
+    ];
+
+    /// The name in a scenario.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, format)| *format == self).map_or("", |(name, _)| name)
+    }
+
+    /// What the ending of a file says; a table where it says nothing.
+    pub(super) fn of_path(path: &Path) -> Self {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        match ending.as_str() {
+            "dump" | "lammpstrj" => Self::LammpsDump,
+            "data" | "lmp" => Self::LammpsData,
+            "xyz" | "extxyz" => Self::Xyz,
+            _ => Self::Table,
+        }
+    }
+}
+
+/// Reads a file of particles.
+pub(super) fn read_points(path: &Path, reading: &FileReading) -> Result<Vec<Grain>, PointsError> {
+    let file = path.display().to_string();
+    match std::fs::read_to_string(path) {
+        Ok(text) => parse_points(&file, &text, reading),
+        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => Err(PointsError::Missing { file }),
+        Err(reason) => Err(PointsError::Unreadable { file, reason }),
+    }
+}
+
+fn parse_points(file: &str, text: &str, reading: &FileReading) -> Result<Vec<Grain>, PointsError> {
+    let text = text.trim_start_matches('\u{feff}');
+    let grains = match reading.format {
+        PointsFormat::Table => table::parse(file, text, reading),
+        PointsFormat::LammpsDump => dump::parse(file, text, reading),
+        PointsFormat::LammpsData => lammps_data::parse(file, text, reading),
+        PointsFormat::Xyz => xyz::parse(file, text, reading),
+    }?;
+    if grains.is_empty() {
+        return Err(PointsError::Empty { file: file.to_owned() });
+    }
+    Ok(grains)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,156 @@
+#!/usr/bin/env python3
+"""Reads the files of the example `sample_run` of pulvis-io with the programs that they are made for, and compares all numbers.
+
+    python3 scripts/check_formats.py <run folder>
+
+NumPy reads the npz archives, pandas the CSV tables, VTK the frames, OVITO dumps and extended XYZ. What is not installed is
+skipped aloud.
+
+Exit status: 0 all well, 1 trouble, 2 wrong use.
+"""
+
+import os
+import sys
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+COUNT, STEPS = 7, (0, 100, 200)
+# Position, radius and so on of the formula in examples/sample_run.rs: first part, number of parts.
+PARTS = {"position": (0, 3), "radius": (10, 1), "v": (11, 3), "omega": (14, 3), "f": (17, 3), "stress": (20, 9)}
+
+
+class Trouble(Exception):
+    """Something a user of the files would stumble over."""
+
+
+def require(condition, words):
+    if not condition:
+        raise Trouble(words)
+
+
+def expected(numpy, name, step):
+    first, parts = PARTS[name]
+    ids = numpy.arange(COUNT)[:, None]
+    values = (ids + 1.0) / 3.0 + 1.0e-7 * numpy.arange(first, first + parts)[None, :] + step / 700.0
+    return values[:, 0] if parts == 1 else values
+
+
+def compare(numpy, found, name, step, end, what, tolerance=None):
+    """Exactly where a reader keeps the bits, else to the tolerance."""
+    values = expected(numpy, name, step)
+    found = numpy.asarray(found, dtype=float).reshape(values.shape)
+    if tolerance is None:
+        values = values if end == "double" else values.astype(numpy.float32).astype(float)
+        found = found if end == "double" else found.astype(numpy.float32).astype(float)
+        require((found == values).all(), f"{what}: {name} differs")
+    else:
+        require((abs(found - values) <= tolerance * abs(values)).all(), f"{what}: {name} differs")
+
+
+def check_npz(folder, end):
+    import numpy
+
+    for number, step in enumerate(STEPS):
+        file = os.path.join(folder, f"npz_{end}_{number:04d}.npz")
+        with numpy.load(file) as data:
+            require(data["time"] == step / 700.0 and data["step"] == step, f"{file}: another time")
+            require(data["box"].tolist() == [[0.0, -1.0, 0.0], [3.0, 1.0, 2.0]], f"{file}: another box")
+            require(data["periodic"].tolist() == [True, False, True], f"{file}: other periodic directions")
+            kind = "float64" if end == "double" else "float32"
+            for name in PARTS:
+                compare(numpy, data[name], name, step, end, file)
+                require(data[name].dtype == kind, f"{file}: {name} is {data[name].dtype}")
+            require(data["stress"].shape == (COUNT, 3, 3), f"{file}: shape of the stress")
+            require(data["contact_id2"].tolist() == [1, -1], f"{file}: other contacts")
+            require(data["contact_force"].shape == (2, 3), f"{file}: shape of the forces")
+    print(f"numpy {numpy.__version__} reads npz ({end})")
+
+
+def check_csv(folder, end):
+    import numpy
+    import pandas
+
+    axes = "xyz"
+    columns = {
+        "position": list(axes),
+        "radius": ["radius"],
+        "v": ["vx", "vy", "vz"],
+        "omega": ["omegax", "omegay", "omegaz"],
+        "f": ["fx", "fy", "fz"],
+        "stress": [f"stress_{one}{other}" for one in axes for other in axes],
+    }
+    for number, step in enumerate(STEPS):
+        file = os.path.join(folder, f"csv_{end}_{number:04d}.csv")
+        # No options but the one that makes pandas read every bit.
+        table = pandas.read_csv(file, float_precision="round_trip")
+        require(table["material"].tolist() == ["glass", "steel"] * 3 + ["glass"], f"{file}: other materials")
+        for name, names in columns.items():
+            compare(numpy, table[names].values, name, step, end, file)
+        contacts = pandas.read_csv(os.path.join(folder, f"csv_{end}_contacts_{number:04d}.csv"))
+        require(contacts["id2"].tolist() == [1, -1], f"{file}: other contacts")
+    print(f"pandas {pandas.__version__} reads csv ({end})")
+
+
+def check_vtk(folder, end):
+    import numpy
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    for number, step in enumerate(STEPS):
+        file = os.path.join(folder, f"vtk_{end}_particles_{number:04d}.vtp")
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(file)
+        reader.Update()
+        data = reader.GetOutput()
+        arrays = data.GetPointData()
+        found = {name: vtk_to_numpy(arrays.GetArray(name)) for name in PARTS if name != "position"}
+        found["position"] = vtk_to_numpy(data.GetPoints().GetData())
+        for name, values in found.items():
+            compare(numpy, values, name, step, end, file)
+            require(values.dtype == ("float64" if end == "double" else "float32"), f"{file}: {name} is {values.dtype}")
+    print(f"VTK reads vtk ({end})")
+
+
+def check_ovito(folder, end):
+    import numpy
+    import ovito
+    from ovito.io import import_file
+
+    # OVITO's parser of text is exact to some bits only; 32 bits are what the file has.
+    tolerance = 1e-14 if end == "double" else 1.2e-7
+    names = {"position": "Position", "radius": "Radius", "v": "Velocity", "omega": "Angular Velocity", "f": "Force"}
+    for file in (f"lammps_dump_{end}.dump", f"xyz_{end}.xyz"):
+        pipeline = import_file(os.path.join(folder, file))
+        require(pipeline.num_frames == len(STEPS), f"OVITO finds {pipeline.num_frames} frames in {file}")
+        for number, step in enumerate(STEPS):
+            data = pipeline.compute(number)
+            require(abs(data.attributes["Time"] - step / 700.0) < 1e-15, f"{file}: another time")
+            cell = numpy.asarray(data.cell)
+            vectors = [[3.0, 0.5, 0.0, 0.0], [0.0, 2.0, -0.25, -1.0], [0.0, 0.0, 2.0, 0.0]]
+            require(numpy.allclose(cell, vectors, rtol=0, atol=1e-6), f"{file}: the cell is {cell}")
+            require(tuple(data.cell.pbc) == (True, False, True), f"{file}: other periodic directions")
+            for name, ours in names.items():
+                compare(numpy, data.particles[ours], name, step, end, file, tolerance)
+    print(f"OVITO {ovito.version_string} reads lammps-dump and xyz ({end})")
+
+
+def main(arguments):
+    if len(arguments) != 1:
+        print(__doc__)
+        return 2
+    try:
+        for check in (check_npz, check_csv, check_vtk, check_ovito):
+            for end in ("double", "single"):
+                try:
+                    check(arguments[0], end)
+                except ImportError as error:
+                    print(f"skipped: {check.__name__}: {error}")
+    except (Trouble, OSError, ValueError, KeyError) as trouble:
+        print(f"trouble: {trouble}")
+        return 1
+    print("all well")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
