@@ -140,6 +140,48 @@ fn a_bead_that_slides_over_a_ridge_keeps_its_energy() {
 }
 
 #[test]
+fn a_ball_that_rolls_over_a_ridge_takes_its_friction_spring_and_its_plastic_overlap_along() {
+    let mass = sphere(Vector3::zero(), Vector3::zero(), RADIUS).mass;
+    let mut sticking = ContactModel::frictionless(Linear::new(2e3, 0.0));
+    sticking.laws.sliding = Some(slider(2.0, 0.0, 10.0));
+    let mut plastic = luding();
+    (plastic.laws.sliding, plastic.laws.rolling, plastic.laws.torsion) = (None, None, None);
+    // Rolling, v² falls by 10/7 g h; sliding, by 2 g h. Up there, v² = 0.3 g a cos θ is left.
+    for (model, stiffness, speed, rolls) in [(sticking, 2e3, 0.1225, true), (plastic, 100.0, 0.1433, false)] {
+        let (roof, along, normal) = roof();
+        let overlap = mass * GRAVITY * normal.z / stiffness;
+        let at = along * (-8.0 * RADIUS) + normal * (RADIUS - overlap);
+        let mut ball = sphere(at, along * speed, RADIUS);
+        if rolls {
+            ball.angular_velocity = normal.cross(along) * (speed / RADIUS);
+        }
+        let setup = Setup { walls: vec![roof], background: gravity(GRAVITY), ..setup(vec![ball], model) };
+        let mut simulation = start(setup, 40.0);
+        let (mut before, mut largest, mut steps) = (0.0_f64, 0.0_f64, 0);
+        while states(&simulation)[0].position.x < 3.0 * RADIUS {
+            simulation.step().unwrap();
+            let mut size = 0.0_f64;
+            simulation.for_each_contact(&mut |contact| {
+                size += contact.memory.iter().map(|value| value * value).sum::<f64>();
+            });
+            let now = size.sqrt();
+            largest = largest.max(now);
+            // A spring swings with 2300 rad/s, half a per cent in a step; a plastic overlap never becomes smaller.
+            if rolls && states(&simulation)[0].position.x > -2.0 * RADIUS {
+                assert!((now - before).abs() < 0.02 * largest, "{before} {now} {:?}", states(&simulation)[0]);
+            } else if !rolls {
+                assert!(now >= before, "{before} {now} {:?}", states(&simulation)[0]);
+            }
+            before = now;
+            steps += 1;
+            assert!(simulation.time() < 1.0, "it does not come over");
+        }
+        assert!(steps > 100 && before > 0.0);
+        assert!(simulation.ledger().relative_error().abs() < 1e-5, "{:?}", simulation.ledger());
+    }
+}
+
+#[test]
 fn a_bead_on_a_rotating_blade_flies_out_as_the_exponential_function() {
     // In the frame of the blade s'' = Ω² s, whatever the bead's distance from the blade: s = s0 exp Ω t with s' = Ω s0 at
     // first. The Coriolis force 2 m Ω s' presses it on; the centrifugal force, m Ω² a across the blade, is smaller.

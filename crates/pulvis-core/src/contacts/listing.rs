@@ -10,6 +10,7 @@ use super::search::{Near, Search};
 use super::table::Surroundings;
 use crate::counting_sort::counting_sort;
 use crate::neighbours::{CellGrid, RowRangePair};
+use crate::particles::MaterialIndex;
 use crate::phases::Phases;
 use crate::walls::{Turned, WallFeature, WallForce};
 
@@ -159,11 +160,9 @@ impl Listing {
         Sources { around, memory, .. }: Sources<'_>,
         spare: &mut impl Iterator<Item = ContactGroup>,
     ) {
-        let Surroundings { particles, interactions, walls, skin, .. } = *around;
-        let candidates = &mut self.candidates;
+        let Surroundings { particles, interactions, walls, .. } = *around;
         let mut groups: Vec<Option<(ContactGroup, LayoutNumber)>> = vec![None; interactions.groups()];
         for (wall_number, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.present) {
-            let turned = Turned::of(wall);
             for &material in around.materials {
                 let Some(&model) = interactions.get(material, wall.material) else { continue };
                 let range = interactions.range(interactions.group(material, wall.material));
@@ -175,34 +174,8 @@ impl Listing {
                         (group, number)
                     });
                 group.wall_forces.resize(walls.len(), WallForce::default());
-                candidates.clear();
-                for row in chunk.rows.clone().filter(|&row| particles.material[row] == material) {
-                    let Packed4 { vector, scalar } = particles.position[row];
-                    let farthest = skin.of_walls() + (skin.positions()[row].scalar - scalar);
-                    let mut add = |feature: u32, gap: f64| {
-                        let feature = WallFeature::new(wall_number, feature);
-                        let sums = [(row - chunk.rows.start) as u32, 0];
-                        let rows = [row as u32, feature.number()];
-                        candidates.push(Candidate { rows, sums, gap, crosses_boundary: false });
-                    };
-                    match wall.shape.edged() {
-                        None => {
-                            let gap = wall.distance(vector) - scalar - range;
-                            if gap < farthest {
-                                add(0, gap);
-                            }
-                        }
-                        Some(shape) => {
-                            let centre = turned.backwards(vector - wall.point);
-                            self.features.clear();
-                            shape.features_near(centre, farthest + scalar + range, &mut self.features);
-                            for &(feature, distance) in &self.features {
-                                add(feature, distance - scalar - range);
-                            }
-                        }
-                    }
-                }
-                for block in candidates.chunks(WIDTH) {
+                self.find_at_wall(chunk, around, wall_number, material, range);
+                for block in self.candidates.chunks(WIDTH) {
                     group.push_block(block, |group, lane| {
                         let [row, feature] = block[lane].rows;
                         let partner = wall_partner(WallFeature::from_number(feature));
@@ -212,5 +185,46 @@ impl Listing {
             }
         }
         groups.into_iter().flatten().for_each(|(group, _)| chunk.keep(group));
+    }
+
+    /// Puts the particles of one material near a wall, and the features of the wall near them, into the candidates.
+    fn find_at_wall(
+        &mut self,
+        chunk: &Chunk,
+        around: &Surroundings<'_>,
+        wall_number: usize,
+        material: MaterialIndex,
+        range: f64,
+    ) {
+        let Surroundings { particles, skin, .. } = *around;
+        let wall = &around.walls[wall_number];
+        let turned = Turned::of(wall);
+        let Self { candidates, features, .. } = self;
+        candidates.clear();
+        for row in chunk.rows.clone().filter(|&row| particles.material[row] == material) {
+            let Packed4 { vector, scalar } = particles.position[row];
+            let farthest = skin.of_walls() + (skin.positions()[row].scalar - scalar);
+            let mut add = |feature: u32, gap: f64| {
+                let rows = [row as u32, WallFeature::new(wall_number, feature).number()];
+                let sums = [(row - chunk.rows.start) as u32, 0];
+                candidates.push(Candidate { rows, sums, gap, crosses_boundary: false });
+            };
+            match wall.shape.edged() {
+                None => {
+                    let gap = wall.distance(vector) - scalar - range;
+                    if gap < farthest {
+                        add(0, gap);
+                    }
+                }
+                Some(shape) => {
+                    let centre = turned.backwards(vector - wall.point);
+                    features.clear();
+                    shape.features_near(centre, farthest + scalar + range, features);
+                    for &(feature, distance) in features.iter() {
+                        add(feature, distance - scalar - range);
+                    }
+                }
+            }
+        }
     }
 }

@@ -119,6 +119,12 @@ impl WallNow {
         Self { edgeless, shape, turned: Turned::of(wall), point: wall.point, velocity_mid, velocity, turn }
     }
 
+    /// Whether a contact can pass from one feature of the wall to another: from one part of a mesh to the next.
+    #[inline(always)]
+    pub(crate) fn has_many_features(&self) -> bool {
+        matches!(self.shape, WallShape::Mesh(_))
+    }
+
     /// The surface of a shape without edges as seen from `centre` [m]; `None` for others.
     #[inline(always)]
     pub(crate) fn surface<R: Real>(&self, centre: Vector3<R>) -> Option<Surface<R>> {

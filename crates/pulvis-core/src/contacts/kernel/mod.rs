@@ -2,6 +2,7 @@
 
 mod batch;
 mod bonds;
+mod hand_over;
 mod normal;
 mod pairs;
 mod walls;

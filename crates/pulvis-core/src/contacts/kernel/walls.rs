@@ -5,6 +5,7 @@ use pulvis_math::{Kernel, Mask, Simd8, Vector3};
 
 use super::super::block::occupied_lanes;
 use super::batch::{BATCH, Batch, BlockSums, gather};
+use super::hand_over::hand_over;
 use super::normal::{NormalCall, Pointed};
 use super::{Loop, finish, response, step_middle, wants};
 use crate::shared::Shared;
@@ -15,6 +16,8 @@ use crate::walls::{WallForce, WallNow};
 /// # Safety
 /// As of [`sweep`](super::sweep).
 pub(super) unsafe fn sweep(contacts: Loop<'_>, walls: &[WallNow]) {
+    // SAFETY: the caller's.
+    unsafe { hand_over(contacts.group, walls, contacts.moving) };
     let set = contacts.advance.instructions;
     set.run(WallLoop { contacts, walls });
 }
