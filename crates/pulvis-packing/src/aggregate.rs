@@ -99,7 +99,7 @@ impl Cluster {
             let along = direction(random);
             // A disc across the way, as wide as both clusters: lines through it are equally likely. A flat cylinder is one.
             let reach = self.outer + other.outer;
-            let ends = [along * (-1.001 * reach), along * (-1.0 * reach)];
+            let ends = [along * (-1.001 * reach), along * -reach];
             let start = random_point(&Region::Cylinder { ends, radius: reach }, random);
             if let Some(way) = self.way_of(&other, start, along) {
                 let shift = start + along * way;
@@ -219,12 +219,12 @@ mod tests {
             let sum: f64 = (1..=seeds)
                 .map(|seed| {
                     let (positions, radii) = aggregate(growth, count, seed);
-                    radius_of_gyration(&positions, &radii).ln()
+                    elementary::ln(radius_of_gyration(&positions, &radii))
                 })
                 .sum();
             sum / seeds as f64
         });
-        (sizes[1] as f64 / sizes[0] as f64).ln() / (large - small)
+        elementary::ln(sizes[1] as f64 / sizes[0] as f64) / (large - small)
     }
 
     // The published dimensions are 1.9 to 2 and 3, of N to infinity (certainty B: from reviews, not from their data). R_g of a
@@ -241,8 +241,8 @@ mod tests {
     fn a_compact_aggregate_fills_a_seventh_of_its_sphere() {
         // The sphere of the same radius of gyration has R = sqrt(5/3) R_g; published: a filling factor of 0.15 for large N.
         let (positions, radii) = aggregate(Growth::ParticleCluster, 2048, 3);
-        let outer = (5.0_f64 / 3.0).sqrt() * radius_of_gyration(&positions, &radii);
-        let filling = 2048.0 / outer.powi(3);
+        let outer = f64::sqrt(5.0 / 3.0) * radius_of_gyration(&positions, &radii);
+        let filling = 2048.0 / elementary::powi(outer, 3);
         assert!(filling > 0.13 && filling < 0.19, "{filling}");
     }
 }

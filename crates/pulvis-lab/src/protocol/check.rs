@@ -161,7 +161,8 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
         particles: particles.len(),
         radii: range(|particle| particle.radius),
         masses: range(|particle| particle.mass),
-        total_mass: particles.iter().map(|particle| particle.mass).sum(),
+        // A sum of nothing is -0.
+        total_mass: 0.0 + particles.iter().map(|particle| particle.mass).sum::<f64>(),
         contacts: forecasts(scenario, &prepared.sample),
         stages: stages(scenario, &prepared),
         regimes: regimes(scenario, particles, &prepared.stages),

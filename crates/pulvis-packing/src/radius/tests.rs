@@ -115,7 +115,7 @@ fn mass_above(radii: &[f64], limit: f64) -> f64 {
 fn rosin_rammler_has_its_quantiles_by_number_and_by_mass() {
     let (scale, exponent, minimum, maximum) = (1.0, 3.0, 0.2, 2.5);
     let plain = RadiusDistribution::RosinRammler { scale, exponent, minimum, maximum };
-    let above = |radius: f64| f64::exp(-(radius / scale).powf(exponent));
+    let above = |radius: f64| elementary::exp(-elementary::powf(radius / scale, exponent));
     // Of what lies between the limits.
     let expected = |radius: f64| (above(radius) - above(maximum)) / (above(minimum) - above(maximum));
     let numbers = drawn(&plain);
@@ -136,16 +136,18 @@ fn a_log_normal_distribution_by_mass_is_one_by_number_about_a_smaller_median() {
     // Hatch and Choate: J. Franklin Inst. 207, 369 (1929): ln(median by number) = ln(median by mass) - 3 sigma^2.
     let (median, sigma) = (1.0, 0.25);
     let radii = drawn(&by_mass(RadiusDistribution::LogNormal { median, sigma, minimum: 0.2, maximum: 5.0 }));
-    let mean = radii.iter().map(|radius| radius.ln()).sum::<f64>() / COUNT as f64;
+    let mean = radii.iter().map(|radius| elementary::ln(*radius)).sum::<f64>() / COUNT as f64;
     // Four standard errors of the mean of ln r, sigma/sqrt(N), are 0.005; the pieces err by less.
     assert!((mean + 3.0 * sigma * sigma).abs() < 0.006, "{mean}");
-    let variance = radii.iter().map(|radius| (radius.ln() - mean).powi(2)).sum::<f64>() / COUNT as f64;
+    let variance =
+        radii.iter().map(|radius| elementary::powi(elementary::ln(*radius) - mean, 2)).sum::<f64>()
+            / COUNT as f64;
     assert!((variance.sqrt() - sigma).abs() < 0.004, "{variance}");
     assert!((mass_above(&radii, median) - 0.5).abs() < 0.02);
     // Where nearly all particles are smaller than the smallest radius, drawing again would never end.
     let fine = by_mass(RadiusDistribution::LogNormal { median, sigma: 1.0, minimum: 0.9, maximum: 1.1 });
     // In so narrow a range ln r is even to 0.5 %, in mass.
-    let expected = f64::ln(1.1) / f64::ln(1.1 / 0.9);
+    let expected = elementary::ln(1.1) / elementary::ln(1.1 / 0.9);
     assert!((mass_above(&drawn(&fine), 1.0) - expected).abs() < 0.013);
 }
 
@@ -153,8 +155,8 @@ fn a_log_normal_distribution_by_mass_is_one_by_number_about_a_smaller_median() {
 fn even_shares_of_mass_are_numbers_that_fall_with_the_third_power_of_the_radius() {
     let radii = drawn(&by_mass(RadiusDistribution::Uniform { minimum: 1.0, maximum: 4.0 }));
     // The share of numbers of r^-3 above r: (r^-2 - b^-2)/(a^-2 - b^-2).
-    for radius in [1.2_f64, 2.0, 3.0] {
-        let expected = (radius.powi(-2) - 1.0 / 16.0) / (1.0 - 1.0 / 16.0);
+    for radius in [1.2, 2.0, 3.0] {
+        let expected = (1.0 / (radius * radius) - 1.0 / 16.0) / (1.0 - 1.0 / 16.0);
         assert!((share_above(&radii, radius) - expected).abs() < 0.01, "{radius}");
     }
     let lists = drawn(&by_mass(list(&[1.0, 2.0], &[1.0, 1.0])));
