@@ -253,7 +253,7 @@ fn read_fit(
     if of.len() < 2 {
         // Those that are missing may be the ones with mistakes of their own.
         return Err(failure.unwrap_or_else(|| {
-            let found = format!("{} features `{key}` with `at` stand above, in the range", of.len());
+            let found = format!("features `{key}` above with an `at` in the range: {}", of.len());
             table.refuse("of", Problem::rule(found, "two or more"))
         }));
     }

@@ -326,7 +326,7 @@ fn of_formula(
     Ok(vec![Curve::plain(identity, None, look, (0..=FORMULA_POINTS).map(point).collect())])
 }
 
-/// Numbers seen in runs over their places: each variant by a point and the mean by a ring, or what is held against them.
+/// Numbers seen in runs over their places: each variant by a cross and the mean by a ring, or what is held against them.
 fn of_features(panel: &FigurePanel, series: &FigureSeries, features: &[SeenFeature]) -> Vec<Curve> {
     let chosen = match &series.show {
         Show::Features(chosen) => chosen,
@@ -347,7 +347,7 @@ fn of_features(panel: &FigurePanel, series: &FigureSeries, features: &[SeenFeatu
     let identity = (series.data, chosen.first().copied().unwrap_or(0), None, name);
     let mut curves = vec![Curve::plain(identity, None, method(&series.show, false), means)];
     if !single.is_empty() {
-        curves.push(Curve::plain(identity, None, ("single runs", SeriesStyle::Points), single));
+        curves.push(Curve::plain(identity, None, ("single runs", SeriesStyle::Crosses), single));
     }
     curves
 }
