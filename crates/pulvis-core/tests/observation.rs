@@ -141,7 +141,7 @@ fn resting(cells: [usize; 3], spacing: f64, strength: f64) -> (Simulation, [f64;
 }
 
 fn plan(regions: Vec<Option<Region>>) -> ObservationPlan {
-    ObservationPlan { regions, contacts: true, rattlers: true }
+    ObservationPlan { regions, ..ObservationPlan::whole() }
 }
 
 /// Identity I2, and the same of every layer: what is above it rests on what is below.
@@ -265,6 +265,11 @@ fn rattlers_are_taken_away_until_none_is_left() {
     let seen = whole(&Simulation::new(corner.clone()).unwrap());
     assert_eq!((seen.contacts, seen.contact_ends, seen.rattlers, seen.corrected_ends), (4.0, 5.0, 2.0, 0.0));
     assert!(seen.corrected_coordination().is_nan(), "nobody carries a load");
+    // With friction two contacts hold a sphere: the one in the corner stays, with its three walls, in one of two regions.
+    let plan = ObservationPlan { least_contacts: vec![4, 2], ..plan(vec![None, None]) };
+    let both = Simulation::new(corner.clone()).unwrap().observe(&plan);
+    let [without, with] = &both[..] else { panic!("{both:?}") };
+    assert_eq!((without.rattlers, with.rattlers, with.corrected_coordination()), (2.0, 1.0, 3.0));
     // A fourth wall holds the first one: only the second one is a rattler.
     let mut held = corner;
     held.walls[5].point.z = 2.0 * near;

@@ -301,6 +301,7 @@ fn observers_see_the_sample_or_a_region_and_measure_all_but_walls_unless_told() 
         quantities: all[..5].to_vec(),
         discard: 0.0,
         blocks: 10,
+        least_contacts: 4,
         histogram: false,
     };
     assert_eq!(*whole, expected);

@@ -8,8 +8,9 @@ pub use tensor::{Tensor, deviator, eigenvalues, pressure};
 use pulvis_boundary::Region;
 use pulvis_math::Vector3;
 
-/// A particle with fewer contacts than this carries no load: it is a rattler, as are particles that have fewer once all
-/// rattlers are taken away (Göncü, Durán, Luding, C. R. Mécanique 338, 570 (2010), sec. 2.3).
+/// A particle with fewer contacts than this carries no load if there is no friction: it is a rattler, as are particles that
+/// have fewer once all rattlers are taken away (Göncü, Durán, Luding, C. R. Mécanique 338, 570 (2010), sec. 2.3). With
+/// friction two contacts can hold a particle.
 pub const LEAST_CONTACTS: u32 = 4;
 
 /// What is observed beside particles and their motion, and in how many regions.
@@ -21,6 +22,8 @@ pub struct ObservationPlan {
     pub contacts: bool,
     /// Whether rattlers are found; needs contacts.
     pub rattlers: bool,
+    /// With how many contacts a particle is no rattler, for each region; [`LEAST_CONTACTS`] where nothing stands.
+    pub least_contacts: Vec<u32>,
 }
 
 impl ObservationPlan {
@@ -29,7 +32,7 @@ impl ObservationPlan {
 
     /// All that can be observed of the whole sample.
     pub fn whole() -> Self {
-        Self { regions: vec![None], contacts: true, rattlers: true }
+        Self { regions: vec![None], contacts: true, rattlers: true, least_contacts: Vec::new() }
     }
 }
 
@@ -55,7 +58,7 @@ pub struct Observation {
     pub contacts: f64,
     /// Σ_i n_i, the touching contacts of each particle of the region.
     pub contact_ends: f64,
-    /// Particles that carry no load, see [`LEAST_CONTACTS`]; NaN if not looked for.
+    /// Particles that carry no load, see [`ObservationPlan::least_contacts`]; NaN if not looked for.
     pub rattlers: f64,
     /// Σ_i n_i over the particles that are no rattlers, contacts with rattlers left out; NaN if not looked for.
     pub corrected_ends: f64,

@@ -33,7 +33,7 @@ impl Simulation {
                 observed.iter_mut().zip(&part.sums).for_each(|(sum, part)| add(sum, part));
             }
             if plan.rattlers {
-                self.observe_rattlers(&inside, &parts, &mut observed);
+                self.observe_rattlers(plan, &inside, &parts, &mut observed);
             }
         }
         observed
@@ -165,13 +165,25 @@ impl Simulation {
     }
 
     /// Counts rattlers, and the contacts of all others among themselves and with walls.
-    fn observe_rattlers(&self, inside: &[u64], parts: &[Part], observed: &mut [Observation]) {
-        let carrying = contacts_without_rattlers(self.particles.len(), parts);
+    fn observe_rattlers(
+        &self,
+        plan: &ObservationPlan,
+        inside: &[u64],
+        parts: &[Part],
+        observed: &mut [Observation],
+    ) {
+        let mut known: Option<(u32, Vec<u32>)> = None;
         for (number, sums) in observed.iter_mut().enumerate() {
+            let least = plan.least_contacts.get(number).copied().unwrap_or(LEAST_CONTACTS);
+            // Most often all regions have the same.
+            let (_, carrying) = match known.take().filter(|(of, _)| *of == least) {
+                Some(same) => known.insert(same),
+                None => known.insert((least, contacts_without_rattlers(self.particles.len(), parts, least))),
+            };
             let counts: [f64; 2] = self.pool.sum_over(carrying.len(), |rows| {
                 let mut counts = [0.0; 2];
                 for row in rows.filter(|&row| is_in(inside[row], number)) {
-                    counts[0] += f64::from(u8::from(carrying[row] < LEAST_CONTACTS));
+                    counts[0] += f64::from(u8::from(carrying[row] < least));
                     counts[1] += f64::from(carrying[row]);
                 }
                 counts
@@ -252,7 +264,7 @@ fn add(sum: &mut Observation, part: &Observation) {
 
 /// The number of contacts of each row with rows that are no rattlers, and with walls; zero of rattlers. Which rows stay does
 /// not depend on the order in which others are taken away.
-fn contacts_without_rattlers(rows: usize, parts: &[Part]) -> Vec<u32> {
+fn contacts_without_rattlers(rows: usize, parts: &[Part], least: u32) -> Vec<u32> {
     let pairs = || parts.iter().flat_map(|part| &part.pairs);
     let mut counts = vec![0_u32; rows];
     for row in parts.iter().flat_map(|part| &part.at_walls).chain(pairs().flatten()) {
@@ -272,7 +284,7 @@ fn contacts_without_rattlers(rows: usize, parts: &[Part]) -> Vec<u32> {
             next[row as usize] += 1;
         }
     }
-    let mut taken: Vec<bool> = counts.iter().map(|&count| count < LEAST_CONTACTS).collect();
+    let mut taken: Vec<bool> = counts.iter().map(|&count| count < least).collect();
     let mut waiting: Vec<u32> = (0..rows as u32).filter(|&row| taken[row as usize]).collect();
     while let Some(row) = waiting.pop() {
         let row = row as usize;
@@ -283,7 +295,7 @@ fn contacts_without_rattlers(rows: usize, parts: &[Part]) -> Vec<u32> {
                 continue;
             }
             counts[partner] -= 1;
-            if counts[partner] < LEAST_CONTACTS {
+            if counts[partner] < least {
                 taken[partner] = true;
                 waiting.push(partner as u32);
             }

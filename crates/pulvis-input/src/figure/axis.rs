@@ -1,5 +1,6 @@
 //! One axis of a panel.
 
+use super::expression::checked;
 use super::quantity::{Family, Quantity, Scale};
 use crate::context::Reported;
 use crate::list::List;
@@ -49,7 +50,12 @@ pub(super) fn read_quantity(
 ) -> Result<Quantity, Reported> {
     let name = table.required(key, Text)?;
     let all = || family.quantities().iter().chain(beside);
-    all().find(|quantity| quantity.name == name).copied().ok_or_else(|| {
+    let found = all().find(|quantity| quantity.name == name).copied();
+    if found.is_none() && family == Family::Run {
+        // Whether the runs have such columns is known once all of them have been read.
+        return checked(table, key, name).map(|name| Quantity::of_expression(&name));
+    }
+    found.ok_or_else(|| {
         let known: Vec<&str> = all().map(|quantity| quantity.name).collect();
         table.refuse(key, Problem::unknown_choice(&name, &known))
     })

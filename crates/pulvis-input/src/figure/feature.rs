@@ -2,6 +2,7 @@
 
 use super::Experiment;
 use super::data::{FigureData, chosen};
+use super::expression::checked;
 use super::formula::{Formula, needed, read_formula};
 use crate::context::Reported;
 use crate::list::List;
@@ -9,7 +10,7 @@ use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
 use crate::scenario::{Stage, WallControl, WallMotion};
-use crate::shape::{Choice, Text};
+use crate::shape::{Choice, Name, Text};
 use pulvis_math::Dimension;
 
 /// What is seen in a run, as a number.
@@ -19,10 +20,10 @@ pub struct Feature {
     pub key: String,
     /// What it is, in words.
     pub what: String,
-    /// The number.
-    pub measure: Measure,
-    /// By what it is divided.
-    pub over: Option<Measure>,
+    /// Where it stands on the axis of a panel of features, and in a fit.
+    pub at: Option<f64>,
+    /// What its number is made of.
+    pub source: Source,
     /// The least value; minus infinity where none is asked for.
     pub least: f64,
     /// The largest value.
@@ -31,6 +32,42 @@ pub struct Feature {
     pub why: String,
     /// Why it is known to be missed; then a miss is reported and fails nothing.
     pub known_to_miss: Option<String>,
+}
+
+/// What the number of a feature is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// Rows of a run.
+    Rows {
+        /// The number.
+        measure: Measure,
+        /// By what it is divided.
+        over: Option<Measure>,
+    },
+    /// Features at several places, by a line through them.
+    Fit(Fit),
+}
+
+/// v = value at zero + slope at^power by least squares, of the values v of features.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// Indices of the features, which stand before this one.
+    pub of: Vec<usize>,
+    /// The power of their places.
+    pub power: f64,
+    /// Whether the slope is the number, not the value at zero.
+    pub is_slope: bool,
+}
+
+impl Source {
+    /// All that it takes out of rows.
+    pub fn measures(&self) -> impl Iterator<Item = &Measure> {
+        let (one, other) = match self {
+            Self::Rows { measure, over } => (Some(measure), over.as_ref()),
+            Self::Fit(_) => (None, None),
+        };
+        one.into_iter().chain(other)
+    }
 }
 
 /// A number out of rows of a time series.
@@ -86,6 +123,8 @@ pub enum Value {
     Zero,
     /// The slope of y over x by least squares.
     Slope,
+    /// y of that straight line at x = 0.
+    AtZero,
     /// R² of that straight line.
     Straightness,
     /// The largest ∮ y dx of a cycle, over the ranges of x and y in the stage.
@@ -100,7 +139,7 @@ pub enum Value {
 
 impl Value {
     /// Names in a figure's file.
-    const NAMED: [(&'static str, Self); 15] = [
+    const NAMED: [(&'static str, Self); 16] = [
         ("first", Self::First),
         ("last", Self::Last),
         ("minimum", Self::Minimum),
@@ -111,6 +150,7 @@ impl Value {
         ("where-maximum", Self::WhereMaximum),
         ("zero", Self::Zero),
         ("slope", Self::Slope),
+        ("at-zero", Self::AtZero),
         ("straightness", Self::Straightness),
         ("loop-area", Self::LoopArea),
         ("drift", Self::Drift),
@@ -130,24 +170,35 @@ pub(super) fn read_features(
     data: &[FigureData],
 ) -> Result<Vec<Feature>, Reported> {
     let tables = root.tables("features")?;
-    let features: Vec<_> = tables.into_iter().map(|table| read_feature(table, data)).collect();
-    features.into_iter().collect()
+    let mut features: Vec<Feature> = Vec::new();
+    let mut failure = None;
+    for table in tables {
+        match read_feature(table, data, (&features, failure)) {
+            Ok(feature) => features.push(feature),
+            Err(reported) => failure = Some(reported),
+        }
+    }
+    failure.map_or(Ok(features), Err)
 }
 
-fn read_feature(mut table: TableReader<'_>, data: &[FigureData]) -> Result<Feature, Reported> {
+fn read_feature(
+    mut table: TableReader<'_>,
+    data: &[FigureData],
+    before: (&[Feature], Option<Reported>),
+) -> Result<Feature, Reported> {
     let key = table.required("key", Text);
     let what = table.required("what", Text);
     let why = table.required("why", Text);
     let known_to_miss = table.optional("known_to_miss", Text);
     let least = table.optional("least", Dimension::NONE);
     let most = table.optional("most", Dimension::NONE);
-    let measure = read_measure(&mut table, data, None);
-    let over = table.optional_table("over").and_then(|over| {
-        let Some(mut over) = over else { return Ok(None) };
-        let read = read_measure(&mut over, data, measure.as_ref().ok());
-        over.finish();
-        read.map(Some)
-    });
+    let at = table.optional("at", Dimension::NONE);
+    let fit = table.optional_table("fit").and_then(|fit| fit.map(|fit| read_fit(fit, before)).transpose());
+    let source = match fit {
+        Ok(Some(fit)) => Ok(Source::Fit(fit)),
+        Ok(None) => read_source(&mut table, data),
+        Err(reported) => Err(reported),
+    };
     let bounds =
         match (least, most) {
             (Ok(None), Ok(None)) => {
@@ -164,13 +215,50 @@ fn read_feature(mut table: TableReader<'_>, data: &[FigureData]) -> Result<Featu
     Ok(Feature {
         key: key?,
         what: what?,
-        measure: measure?,
-        over: over?,
+        at: at?,
+        source: source?,
         least,
         most,
         why: why?,
         known_to_miss: known_to_miss?,
     })
+}
+
+fn read_source(table: &mut TableReader<'_>, data: &[FigureData]) -> Result<Source, Reported> {
+    let measure = read_measure(table, data, None);
+    let over = table.optional_table("over").and_then(|over| {
+        let Some(mut over) = over else { return Ok(None) };
+        let read = read_measure(&mut over, data, measure.as_ref().ok());
+        over.finish();
+        read.map(Some)
+    });
+    Ok(Source::Rows { measure: measure?, over: over? })
+}
+
+/// Reads a fit through the features `before` that have its key and a place.
+fn read_fit(
+    mut table: TableReader<'_>,
+    (before, failure): (&[Feature], Option<Reported>),
+) -> Result<Fit, Reported> {
+    let key = table.required("of", Text);
+    let power = table.or("power", QuantityRule::of(Dimension::NONE).above(0.0), 1.0);
+    let value = table.or("value", Name(&["at-zero", "slope"]), "at-zero");
+    let least = table.or("from", Dimension::NONE, f64::NEG_INFINITY);
+    let most = table.or("to", Dimension::NONE, f64::INFINITY);
+    let (key, least, most) = (key?, least?, most?);
+    let fits =
+        |feature: &Feature| feature.key == key && feature.at.is_some_and(|at| at >= least && at <= most);
+    let of: Vec<usize> =
+        before.iter().enumerate().filter(|(_, one)| fits(one)).map(|(number, _)| number).collect();
+    if of.len() < 2 {
+        // Those that are missing may be the ones with mistakes of their own.
+        return Err(failure.unwrap_or_else(|| {
+            let found = format!("features `{key}` above with an `at` in the range: {}", of.len());
+            table.refuse("of", Problem::rule(found, "two or more"))
+        }));
+    }
+    table.finish();
+    Ok(Fit { of, power: power?, is_slope: value? == "slope" })
 }
 
 /// Reads a measure of one of the `data`; what it does not say is as in `base`, if there is one.
@@ -215,7 +303,9 @@ pub(crate) fn read_rows(
         }
         None => (table.required("value", Choice(&Value::NAMED)), table.required("y", Text)),
     };
+    let y = y.and_then(|y| checked(table, "y", y));
     let x = table.or("x", Text, base.map_or_else(|| "time".to_owned(), |base| base.x.clone()));
+    let x = x.and_then(|x| checked(table, "x", x));
     let ends = || List::of(QuantityRule::of(Dimension::NONE)).exactly(2);
     let cycles = table.optional("cycles", ends()).map(|ends| ends.as_deref().and_then(pair));
     let within = table.optional_table("within").and_then(|within| within.map(read_within).transpose());
@@ -273,7 +363,7 @@ pub(super) fn pair(numbers: &[f64]) -> Option<[f64; 2]> {
 }
 
 fn read_within(mut table: TableReader<'_>) -> Result<Within, Reported> {
-    let column = table.required("column", Text);
+    let column = table.required("column", Text).and_then(|column| checked(&table, "column", column));
     let from = table.required("from", Dimension::NONE);
     let to = table.required("to", Dimension::NONE);
     table.finish();

@@ -7,6 +7,7 @@
 mod axis;
 mod check;
 mod data;
+mod expression;
 pub(crate) mod feature;
 mod formula;
 mod notes;
@@ -22,12 +23,15 @@ mod snapshots;
 pub use axis::FigureAxis;
 pub use check::{Against, FigureCheck};
 pub use data::{Experiment, FigureData};
-pub use feature::{Feature, Measure, Value, Within};
+pub use expression::Expression;
+pub use feature::{Feature, Fit, Measure, Source, Value, Within};
 pub use formula::Formula;
 pub use notes::Note;
 pub use of_run::OfRun;
 pub use panel::{FigurePanel, Guide};
-pub use quantity::{Family, OF_COLLISIONS, OF_COURSES, OF_PATHS, OF_RUNS, Quantity, Scale, limited_pair};
+pub use quantity::{
+    Family, OF_COLLISIONS, OF_COURSES, OF_FEATURES, OF_PATHS, OF_RUNS, Quantity, Scale, limited_pair,
+};
 pub use reference::ReferenceTable;
 pub use runs::{PlannedRun, Runs};
 pub use series::{Approximation, FigureSeries, Show};
@@ -132,12 +136,16 @@ fn walk(mut root: TableReader<'_>, around: &Surroundings<'_>) -> Result<FigureSc
     };
     let variant_list = variants.as_deref().unwrap_or_default();
     let (panels, snapshots, checks, features) = match &data {
-        Ok(data) => (
-            read_panels(&mut root, (data, variant_list), around),
-            read_snapshots(&mut root, data, variant_list),
-            read_checks(&mut root, data, around),
-            read_features(&mut root, data),
-        ),
+        Ok(data) => {
+            let features = read_features(&mut root, data);
+            let seen = features.as_deref().map_err(|reported| *reported);
+            (
+                read_panels(&mut root, (data, variant_list, seen), around),
+                read_snapshots(&mut root, data, variant_list),
+                read_checks(&mut root, data, around),
+                features,
+            )
+        }
         // Without the data nobody knows what can be drawn.
         Err(reported) => {
             let _ = ["panels", "snapshots", "checks", "features"].map(|key| root.value(key).is_some());

@@ -3,8 +3,9 @@
 use super::Surroundings;
 use super::axis::{FigureAxis, read_axis};
 use super::data::FigureData;
+use super::feature::Feature;
 use super::quantity::Family;
-use super::series::{FigureSeries, families, read_series};
+use super::series::{FigureSeries, families, read_feature_series, read_series};
 use super::settings::Variant;
 use crate::context::Reported;
 use crate::list::List;
@@ -45,7 +46,7 @@ pub struct FigurePanel {
 /// Reads all `[[panels]]`.
 pub(super) fn read_panels(
     root: &mut TableReader<'_>,
-    known: (&[FigureData], &[Variant]),
+    known: (&[FigureData], &[Variant], Result<&[Feature], Reported>),
     around: &Surroundings<'_>,
 ) -> Result<Vec<FigurePanel>, Reported> {
     let tables = root.tables("panels")?;
@@ -59,7 +60,7 @@ pub(super) fn read_panels(
 
 fn read_panel(
     mut table: TableReader<'_>,
-    known: (&[FigureData], &[Variant]),
+    (data, variants, features): (&[FigureData], &[Variant], Result<&[Feature], Reported>),
     around: &Surroundings<'_>,
 ) -> Result<FigurePanel, Reported> {
     let title = table.or("title", Text, String::new());
@@ -69,12 +70,15 @@ fn read_panel(
     let guides = table.tables("guides");
     let [x, y] = axes;
     let (mut x, mut y, series, guides) = (x?, y?, series?, guides?);
-    let family = family(&mut x, &mut y, known.0);
+    let family = family(&mut x, &mut y, data);
     let guides: Vec<_> = guides.into_iter().map(read_guide).collect();
     let axes = (read_axis(x, family), read_axis(y, family));
     let y = axes.1.as_ref().ok();
-    let series: Vec<_> =
-        series.into_iter().map(|series| read_series(series, known, (family, y), around)).collect();
+    let read = |series| match family {
+        Family::Feature => read_feature_series(series, features?, around),
+        _ => read_series(series, (data, variants), (family, y), around),
+    };
+    let series: Vec<_> = series.into_iter().map(read).collect();
     if series.is_empty() {
         let expected = "one table [[panels.series]] for each curve".to_owned();
         return Err(table.refuse("series", Problem::MissingKey { key: "series".to_owned(), expected }));
@@ -97,6 +101,9 @@ fn family(x: &mut TableReader<'_>, y: &mut TableReader<'_>, data: &[FigureData])
     let knows = |axis: &mut TableReader<'_>, family: Family| {
         axis.value("quantity").and_then(|value| family.find(value.text()?)).is_some()
     };
+    if knows(x, Family::Feature) && knows(y, Family::Feature) {
+        return Family::Feature;
+    }
     let both = possible.iter().find(|family| knows(x, **family) && knows(y, **family));
     let one = possible.iter().find(|family| knows(x, **family) || knows(y, **family));
     both.or(one).or(possible.first()).copied().unwrap_or(Family::Collision)

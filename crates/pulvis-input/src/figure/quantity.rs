@@ -2,6 +2,8 @@
 
 use crate::collision::{CollisionCase, luding_pair};
 use pulvis_contact::theory::LudingPair;
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
 
 /// What a quantity is a property of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +16,8 @@ pub enum Family {
     Path,
     /// A row of the time series of a run.
     Run,
+    /// A number that was seen in runs.
+    Feature,
 }
 
 /// A quantity that an axis can show or a check can judge.
@@ -109,6 +113,50 @@ pub const OF_RUNS: &[Quantity] = &[
     quantity("largest_cluster", "particles of the largest piece", "", "1"),
 ];
 
+/// Columns of observers that have names of their own on axes; `_` and the name of the observer follow.
+const OF_OBSERVERS: &[Quantity] = &[
+    quantity("pressure", "pressure", "p", "Pa"),
+    quantity("deviatoric_stress", "deviatoric stress", "q", "Pa"),
+    quantity("solid_fraction", "solid fraction", "φ", "1"),
+    quantity("granular_temperature", "granular temperature", "T", "J"),
+    quantity("corrected_coordination", "contacts of a particle, without rattlers", "Z*", "1"),
+    quantity("coordination", "contacts of a particle", "Z", "1"),
+    quantity("rattlers", "rattlers", "N_{r}", "1"),
+    quantity("fabric_deviator", "deviator of the fabric", "F_{dev}", "1"),
+    quantity("normal_force_mean", "mean normal force", "f_{n}", "N"),
+    quantity("tensile_share", "part of the contacts that pull", "", "1"),
+];
+
+/// What panels of features show.
+pub const OF_FEATURES: &[Quantity] = &[quantity("at", "at", "", "1"), quantity("value", "value", "", "1")];
+
+/// A name that lasts as long as the program, as those above do. Figures have some dozens of them, whatever is reproduced.
+fn lasting(name: &str) -> &'static str {
+    static NAMES: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+    let mut names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = names.get(name) {
+        return known;
+    }
+    let lasting: &'static str = Box::leak(name.to_owned().into_boxed_str());
+    names.insert(lasting);
+    lasting
+}
+
+impl Quantity {
+    /// A column of a time series that no list above has, or what is computed from columns.
+    pub(super) fn of_expression(text: &str) -> Self {
+        let of_observer = |known: &&Self| {
+            let rest = text.strip_prefix(known.name).and_then(|rest| rest.strip_prefix('_'));
+            rest.is_some_and(|name| name.chars().all(|letter| letter.is_alphanumeric() || letter == '_'))
+        };
+        let name = lasting(text);
+        match OF_OBSERVERS.iter().find(of_observer) {
+            Some(known) => Self { name, ..*known },
+            None => Self { name, words: name, symbol: "", unit: "1" },
+        }
+    }
+}
+
 impl Family {
     /// All its quantities.
     pub const fn quantities(self) -> &'static [Quantity] {
@@ -117,6 +165,7 @@ impl Family {
             Self::Course => OF_COURSES,
             Self::Path => OF_PATHS,
             Self::Run => OF_RUNS,
+            Self::Feature => OF_FEATURES,
         }
     }
 

@@ -2,6 +2,8 @@
 
 use super::axis::FigureAxis;
 use super::data::{FigureData, chosen, contact};
+use super::expression::checked;
+use super::feature::Feature;
 use super::formula::{Formula, needed, read_formula};
 use super::of_run::{OfRun, read_of_run};
 use super::quantity::{Family, Quantity};
@@ -53,14 +55,16 @@ pub enum Show {
     Reference(ReferenceTable),
     /// The time series of a run.
     Run(OfRun),
-    /// A closed form, over the times of a run.
+    /// A closed form, over the times of a run or between the features of a panel.
     Formula(Formula),
+    /// Features: their indices.
+    Features(Vec<usize>),
 }
 
 /// A curve of a panel, or one for each contact or collision that fits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FigureSeries {
-    /// Index of the data.
+    /// Index of the data; of none where features are shown.
     pub data: usize,
     /// What it shows.
     pub show: Show,
@@ -186,6 +190,55 @@ pub(super) fn read_series(
     })
 }
 
+/// Reads a curve of a panel that shows features.
+pub(super) fn read_feature_series(
+    mut table: TableReader<'_>,
+    features: &[Feature],
+    around: &Surroundings<'_>,
+) -> Result<FigureSeries, Reported> {
+    let name = table.required("show", Name(&["features", "formula", "reference"]));
+    let label = table.optional("label", Text);
+    let in_legend = table.or("legend", Boolean, true);
+    let key = table.optional("feature", Text);
+    let is_formula = name.as_ref().is_ok_and(|name| *name == "formula");
+    let formula = read_formula(&mut table).and_then(|formula| needed(&table, formula, "show", is_formula));
+    let show = match name? {
+        "features" => features_of(&table, key?, features).map(Show::Features),
+        // It is there: `needed` has made sure.
+        "formula" => formula.and_then(|formula| {
+            formula.map(Show::Formula).ok_or_else(|| table.refuse("", Problem::rule("no formula", "one")))
+        }),
+        _ => read_reference(&mut table, "file", around).map(Show::Reference),
+    };
+    table.finish();
+    Ok(FigureSeries {
+        data: usize::MAX,
+        show: show?,
+        contact: None,
+        case: None,
+        y: None,
+        label: label?,
+        in_legend: in_legend?,
+    })
+}
+
+/// The features with a key that have a place on an axis.
+fn features_of(
+    table: &TableReader<'_>,
+    key: Option<String>,
+    features: &[Feature],
+) -> Result<Vec<usize>, Reported> {
+    let placed = || features.iter().enumerate().filter(|(_, feature)| feature.at.is_some());
+    let key = key.unwrap_or_default();
+    let found: Vec<usize> = placed().filter(|(_, one)| one.key == key).map(|(number, _)| number).collect();
+    if found.is_empty() {
+        let mut known: Vec<&str> = placed().map(|(_, feature)| feature.key.as_str()).collect();
+        known.dedup();
+        return Err(table.refuse("feature", Problem::unknown_choice(&key, &known)));
+    }
+    Ok(found)
+}
+
 /// A quantity on the vertical axis in place of the panel's.
 fn read_y(
     table: &mut TableReader<'_>,
@@ -193,6 +246,9 @@ fn read_y(
     axis: Option<&FigureAxis>,
 ) -> Result<Option<Quantity>, Reported> {
     let Some(name) = table.optional("y", Text)? else { return Ok(None) };
+    if family == Family::Run && family.find(&name).is_none() {
+        return checked(table, "y", name).map(|name| Some(Quantity::of_expression(&name)));
+    }
     let same_unit = |quantity: &&Quantity| axis.is_none_or(|axis| quantity.unit == axis.quantity.unit);
     let known: Vec<Quantity> = family.quantities().iter().filter(same_unit).copied().collect();
     let found = known.iter().find(|quantity| quantity.name == name).copied();

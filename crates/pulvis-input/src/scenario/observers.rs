@@ -25,6 +25,8 @@ pub struct Observer {
     pub discard: f64,
     /// Number of blocks that averages are taken over, at least 2.
     pub blocks: usize,
+    /// With how many contacts a particle is no rattler.
+    pub least_contacts: u32,
     /// Whether the distribution of normal forces is written at the end of each stage.
     pub histogram: bool,
 }
@@ -62,6 +64,9 @@ impl ObservedQuantity {
         Self::ALL.iter().find(|(_, quantity)| *quantity == self).map_or("", |(name, _)| name)
     }
 }
+
+/// Contacts that hold a particle without friction.
+const DEFAULT_LEAST_CONTACTS: u32 = 4;
 
 /// Blocks of averages where nothing is said.
 const DEFAULT_BLOCKS: usize = 10;
@@ -104,6 +109,7 @@ fn read_observer(
     let quantities = read_quantities(&mut table);
     let discard = table.or("discard", QuantityRule::of(Dimension::TIME).at_least(0.0), 0.0);
     let blocks = table.optional("blocks", Integer::between(2, 1_000_000));
+    let least_contacts = table.optional("least_contacts", Integer::between(1, 12));
     let histogram = table.or("histogram", Boolean, false);
     table.finish();
     Ok(Observer {
@@ -112,6 +118,9 @@ fn read_observer(
         quantities: quantities?,
         discard: discard?,
         blocks: blocks?.map_or(DEFAULT_BLOCKS, |blocks| blocks.unsigned_abs() as usize),
+        least_contacts: least_contacts?
+            .and_then(|least| u32::try_from(least).ok())
+            .unwrap_or(DEFAULT_LEAST_CONTACTS),
         histogram: histogram?,
     })
 }
@@ -190,12 +199,13 @@ pub(super) fn check_discards(
 /// Writes `[[observers]]`.
 pub(super) fn write_observers(writer: &mut Writer, observers: &[Observer]) {
     for observer in observers {
-        let Observer { name, region, quantities, discard, blocks, histogram } = observer;
+        let Observer { name, region, quantities, discard, blocks, least_contacts, histogram } = observer;
         writer.item("observers");
         writer.key("name", text(name));
         writer.key("quantities", list(quantities.iter().map(|quantity| text(quantity.name()))));
         writer.key("discard", quantity(*discard, Dimension::TIME));
         writer.key("blocks", blocks.to_string());
+        writer.key("least_contacts", least_contacts.to_string());
         writer.key("histogram", histogram.to_string());
         if let Some(region) = region {
             writer.table("observers.region");

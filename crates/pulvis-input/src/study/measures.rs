@@ -5,7 +5,7 @@ use super::points::Combined;
 use super::variable::plain;
 use crate::context::{Location, Reported};
 use crate::figure::feature::{Measured, read_rows};
-use crate::figure::{Measure, one_paragraph};
+use crate::figure::{Expression, Measure, one_paragraph};
 use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::Text;
@@ -107,10 +107,16 @@ fn refuse_bad_key(table: &TableReader<'_>, key: String, before: &[StudyMeasure])
 fn columns(table: &mut TableReader<'_>, measure: &Measure) -> Vec<(String, Location)> {
     let mut columns = Vec::new();
     for (key, column) in [("x", &measure.x), ("y", &measure.y)] {
-        columns.push((column.clone(), table.location(key)));
+        columns.push((column, table.location(key)));
     }
     if let Some(within) = &measure.within {
-        columns.push((within.column.clone(), table.location("within")));
+        columns.push((&within.column, table.location("within")));
     }
-    columns
+    // What is no formula has been refused.
+    let needed = |text: &String| Expression::parse(text).map(|formula| formula.columns().to_vec());
+    let each = |(text, place): (&String, Location)| {
+        let columns = needed(text).unwrap_or_default().into_iter();
+        columns.map(move |column| (column, place.clone()))
+    };
+    columns.into_iter().flat_map(each).collect()
 }

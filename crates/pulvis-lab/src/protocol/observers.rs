@@ -81,6 +81,7 @@ pub(super) fn plan(scenario: &Scenario) -> ObservationPlan {
         regions: scenario.observers.iter().map(|observer| observer.region).collect(),
         contacts: wants(|quantity| *quantity != ObservedQuantity::Particles),
         rattlers: wants(|quantity| *quantity == ObservedQuantity::Coordination),
+        least_contacts: scenario.observers.iter().map(|observer| observer.least_contacts).collect(),
     }
 }
 

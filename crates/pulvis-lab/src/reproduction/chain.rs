@@ -5,7 +5,7 @@ use super::series::FinishedRun;
 use super::snapshots::plain;
 use super::workplace::{RunDone, Workplace};
 use crate::protocol::{PictureOptions, RunOptions, RunState, RunSummary, column_names, run, run_state};
-use pulvis_input::figure::{Experiment, Family, FigureScenario, PlannedRun, Runs};
+use pulvis_input::figure::{Experiment, Expression, Family, FigureScenario, PlannedRun, Runs};
 use pulvis_input::scenario::{Scenario, StartFrom};
 use std::num::NonZero;
 use std::path::PathBuf;
@@ -55,8 +55,31 @@ pub(super) fn run_chain(figure: &FigureScenario, workplace: &Workplace<'_>) -> R
 
 /// Refuses columns that the time series will not have, before anything is run.
 fn check_columns(figure: &FigureScenario) -> Result<(), ReproductionError> {
-    let measures = figure.features.iter().flat_map(|feature| [Some(&feature.measure), feature.over.as_ref()]);
-    let measured = measures.flatten().flat_map(|measure| {
+    for (data, text) in wanted(figure) {
+        // What is no formula was refused when the figure was read.
+        let formula = Expression::parse(text).ok();
+        for run in runs_of(figure, data).into_iter().flat_map(|runs| &runs.planned) {
+            let known = column_names(&run.scenario);
+            if known.iter().any(|name| name == text) {
+                continue;
+            }
+            let needed = formula.as_ref().map(Expression::columns).unwrap_or_default();
+            if let Some(missing) = needed.iter().find(|column| !known.contains(column)) {
+                return Err(ReproductionError::NoColumn {
+                    data: figure.data.get(data).map(|data| data.name.clone()).unwrap_or_default(),
+                    column: missing.clone(),
+                    known: known.join(", "),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// All columns, and formulas of columns, that a figure takes from its runs, with the number of the data.
+fn wanted(figure: &FigureScenario) -> impl Iterator<Item = (usize, &str)> {
+    let measures = figure.features.iter().flat_map(|feature| feature.source.measures());
+    let measured = measures.flat_map(|measure| {
         let within = measure.within.as_ref().map(|within| within.column.as_str());
         let columns = [Some(measure.x.as_str()), Some(measure.y.as_str()), within];
         columns.into_iter().flatten().map(|column| (measure.data, column))
@@ -67,19 +90,7 @@ fn check_columns(figure: &FigureScenario) -> Result<(), ReproductionError> {
             [x, series.y.unwrap_or(panel.y.quantity).name].map(|column| (series.data, column))
         })
     });
-    for (data, column) in measured.chain(drawn) {
-        for run in runs_of(figure, data).into_iter().flat_map(|runs| &runs.planned) {
-            let known = column_names(&run.scenario);
-            if !known.iter().any(|name| name == column) {
-                return Err(ReproductionError::NoColumn {
-                    data: figure.data.get(data).map(|data| data.name.clone()).unwrap_or_default(),
-                    column: column.to_owned(),
-                    known: known.join(", "),
-                });
-            }
-        }
-    }
-    Ok(())
+    measured.chain(drawn)
 }
 
 fn runs_of(figure: &FigureScenario, data: usize) -> Option<&Runs> {
@@ -206,10 +217,12 @@ pub(super) fn finished<'f>(
     runs: &'f Runs,
     workplace: &Workplace<'_>,
 ) -> Result<Vec<FinishedRun<'f>>, ReproductionError> {
+    let wanted: Vec<&str> =
+        wanted(figure).filter(|(number, _)| *number == data).map(|(_, text)| text).collect();
     let read = |run: &'f PlannedRun| {
         let folder = folder(figure, workplace, Task { data, variant: run.variant });
         let name = figure.variants.get(run.variant).map(|variant| variant.name.clone()).unwrap_or_default();
-        FinishedRun::read((run.variant, name), &run.scenario, &folder)
+        FinishedRun::read((run.variant, name), &run.scenario, &folder, &wanted)
     };
     runs.planned.iter().map(read).collect()
 }

@@ -1,8 +1,8 @@
 //! The picture of a figure, and the table of all its points.
 
-use super::ReproductionError;
 use super::curves::{Curve, Identity, curves};
 use super::results::{Kind, Results};
+use super::{ReproductionError, SeenFeature};
 use crate::collision::sticking_limits;
 use pulvis_input::figure::{FigureAxis, FigurePanel, FigureScenario, FigureSeries};
 use pulvis_io::plot::{Chart, Figure, Series, SeriesStyle};
@@ -14,11 +14,12 @@ const COLUMNS: [&str; 6] = ["panel", "x_axis", "y_axis", "curve", "x", "y"];
 pub(super) fn draw(
     figure: &FigureScenario,
     results: &Results<'_>,
+    features: &[SeenFeature],
 ) -> Result<(Figure, Table), ReproductionError> {
     let mut picture = Figure::new().columns(figure.columns);
     let mut table = Table::new(COLUMNS);
     for (number, panel) in figure.panels.iter().enumerate() {
-        let drawn = panel.series.iter().map(|series| Ok((series, curves(panel, series, results)?)));
+        let drawn = panel.series.iter().map(|series| Ok((series, curves(panel, series, results, features)?)));
         let drawn = drawn.collect::<Result<Vec<_>, ReproductionError>>()?;
         let mut known: Vec<Identity> = Vec::new();
         for curve in drawn.iter().flat_map(|(_, curves)| curves) {

@@ -3,7 +3,8 @@
 use super::ReproductionError;
 use super::results::{Kind, Results};
 use super::series::{FinishedRun, Phased, in_cycles};
-use pulvis_input::figure::{Feature, Measure, Value};
+use pulvis_input::figure::{Feature, Fit, Measure, Source, Value};
+use pulvis_math::elementary;
 
 /// What a feature is in all variants that have its runs.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,23 +49,61 @@ impl SeenFeature {
     }
 }
 
-/// Looks for a feature in all variants.
-pub(super) fn look(feature: &Feature, results: &Results<'_>) -> Result<SeenFeature, ReproductionError> {
+/// Looks for all features of a figure, in all variants.
+pub(super) fn look_for(
+    features: &[Feature],
+    results: &Results<'_>,
+) -> Result<Vec<SeenFeature>, ReproductionError> {
+    let mut seen: Vec<SeenFeature> = Vec::with_capacity(features.len());
+    for feature in features {
+        let values = match &feature.source {
+            Source::Rows { measure, over } => of_runs(measure, over.as_ref(), results)?,
+            Source::Fit(fit) => of_fit(fit, &seen),
+        };
+        seen.push(SeenFeature { feature: feature.clone(), values });
+    }
+    Ok(seen)
+}
+
+/// A number of a line through the values of features, in each variant that all of them have.
+fn of_fit(fit: &Fit, seen: &[SeenFeature]) -> Vec<(usize, f64)> {
+    let features: Vec<&SeenFeature> = fit.of.iter().filter_map(|number| seen.get(*number)).collect();
+    let Some(first) = features.first() else { return Vec::new() };
+    let of_variant = |variant: usize| {
+        let point = |one: &&SeenFeature| {
+            let (_, value) = one.values.iter().find(|(number, _)| *number == variant)?;
+            Some([elementary::powf(one.feature.at?, fit.power), *value])
+        };
+        let points: Option<Vec<[f64; 2]>> = features.iter().map(point).collect();
+        let points = points?;
+        let rows: Vec<Phased<'_>> = points.iter().map(|point| Phased::new(point, f64::NAN)).collect();
+        let line = line(&rows, 0, 1);
+        Some((variant, if fit.is_slope { line.slope } else { line.at_zero }))
+    };
+    first.values.iter().filter_map(|(variant, _)| of_variant(*variant)).collect()
+}
+
+/// A number of each run.
+fn of_runs(
+    of: &Measure,
+    over: Option<&Measure>,
+    results: &Results<'_>,
+) -> Result<Vec<(usize, f64)>, ReproductionError> {
     let runs = |data: usize| match results.of(data).map(|of_data| &of_data.kind) {
         Some(Kind::Runs(runs)) => runs.as_slice(),
         _ => &[],
     };
     let mut values = Vec::new();
-    for run in runs(feature.measure.data) {
-        let mut value = measure(&feature.measure, run)?;
-        if let Some(over) = &feature.over {
+    for run in runs(of.data) {
+        let mut value = measure(of, run)?;
+        if let Some(over) = over {
             let other = runs(over.data).iter().find(|other| other.variant == run.variant);
             let Some(other) = other else { continue };
             value /= measure(over, other)?;
         }
         values.push((run.variant, value));
     }
-    Ok(SeenFeature { feature: feature.clone(), values })
+    Ok(values)
 }
 
 /// Takes a number out of a run; not a number where the rows do not tell it.
@@ -107,6 +146,7 @@ fn of_rows(value: Value, rows: &[Phased<'_>], x: usize, y: usize) -> f64 {
         Value::WhereMaximum => at(rows.iter().max_by(by_y)),
         Value::Zero => zero(rows, x, y),
         Value::Slope => line(rows, x, y).slope,
+        Value::AtZero => line(rows, x, y).at_zero,
         Value::Straightness => line(rows, x, y).straightness,
         Value::LoopArea | Value::Drift | Value::Growth | Value::OverFormula => nothing,
     }
@@ -140,6 +180,8 @@ struct Line {
     slope: f64,
     /// R².
     straightness: f64,
+    /// y at x = 0.
+    at_zero: f64,
 }
 
 fn line(rows: &[Phased<'_>], x: usize, y: usize) -> Line {
@@ -150,7 +192,7 @@ fn line(rows: &[Phased<'_>], x: usize, y: usize) -> Line {
         rows.iter().map(|row| of(row.at(x) - x_mean, row.at(y) - y_mean)).sum::<f64>()
     };
     let [xx, xy, yy] = [sum(|x, _| x * x), sum(|x, y| x * y), sum(|_, y| y * y)];
-    Line { slope: xy / xx, straightness: xy * xy / (xx * yy) }
+    Line { slope: xy / xx, straightness: xy * xy / (xx * yy), at_zero: y_mean - xy / xx * x_mean }
 }
 
 /// Whole cycles of a stage.
@@ -230,12 +272,38 @@ mod tests {
         let rows = cycles(|x, _, _| 3.0 - 4.0 * x);
         let rows = phased(&rows);
         assert!((of_rows(Value::Slope, &rows, 0, 1) + 4.0).abs() < 1e-12);
+        assert!((of_rows(Value::AtZero, &rows, 0, 1) - 3.0).abs() < 1e-12);
         assert!((of_rows(Value::Straightness, &rows, 0, 1) - 1.0).abs() < 1e-12);
         assert!((of_rows(Value::Zero, &rows, 0, 1) - 0.75).abs() < 1e-12);
         assert!((of_rows(Value::WhereMinimum, &rows, 0, 1) - 1.0).abs() < 1e-12);
         let whole = Cycles { all: &rows, x: 0, y: 1, from: 0, to: 2 };
         assert!(whole.loop_area().abs() < 1e-12 && whole.drift().abs() < 1e-12);
         assert!((whole.growth() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_square_root_through_three_features_has_its_value_at_zero_and_its_slope_in_each_variant() {
+        // v = 6 + 8 at^(1/2) in the first variant and 5 + 2 at^(1/2) in the second, which one feature lacks in a third.
+        let feature = |at: f64, values: Vec<(usize, f64)>| {
+            let fit = Fit { of: Vec::new(), power: 1.0, is_slope: false };
+            let [key, what, why] = ["A", "a number", "no reason"].map(str::to_owned);
+            let (least, most, known_to_miss) = (f64::NEG_INFINITY, f64::INFINITY, None);
+            let source = Source::Fit(fit);
+            let feature = Feature { key, what, at: Some(at), source, least, most, why, known_to_miss };
+            SeenFeature { feature, values }
+        };
+        let seen = [
+            feature(1.0, vec![(0, 14.0), (1, 7.0), (2, 0.0)]),
+            feature(4.0, vec![(0, 22.0), (1, 9.0)]),
+            feature(9.0, vec![(0, 30.0), (1, 11.0), (2, 0.0)]),
+        ];
+        for (is_slope, expected) in [(false, [6.0, 5.0]), (true, [8.0, 2.0])] {
+            let found = of_fit(&Fit { of: vec![0, 1, 2], power: 0.5, is_slope }, &seen);
+            assert_eq!(found.iter().map(|(variant, _)| *variant).collect::<Vec<_>>(), [0, 1]);
+            assert!(
+                found.iter().zip(expected).all(|((_, value), expected)| (value - expected).abs() < 1e-12)
+            );
+        }
     }
 
     #[test]

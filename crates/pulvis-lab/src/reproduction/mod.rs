@@ -148,11 +148,10 @@ pub fn reproduce(
     workplace: &Workplace<'_>,
 ) -> Result<Reproduction, ReproductionError> {
     let results = Results::compute(figure, workplace)?;
-    let (picture, table) = chart::draw(figure, &results)?;
+    let features = features::look_for(&figure.features, &results)?;
+    let (picture, table) = chart::draw(figure, &results, &features)?;
     let judged = figure.checks.iter().map(|check| judge::judge(check, &results));
     let checks = judged.collect::<Result<_, _>>()?;
-    let seen = figure.features.iter().map(|feature| features::look(feature, &results));
-    let features = seen.collect::<Result<_, _>>()?;
     let snapshots = snapshots::draw(figure, &results, workplace)?;
     Ok(Reproduction { picture, table, checks, features, snapshots })
 }

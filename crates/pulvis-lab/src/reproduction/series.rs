@@ -1,7 +1,7 @@
 //! The time series of a run that has ended.
 
 use super::ReproductionError;
-use pulvis_input::figure::{Measure, OfRun};
+use pulvis_input::figure::{Expression, Measure, OfRun};
 use pulvis_input::scenario::{Scenario, WallControl, WallMotion};
 use std::path::{Path, PathBuf};
 
@@ -19,11 +19,12 @@ pub(crate) struct FinishedRun<'f> {
 }
 
 impl<'f> FinishedRun<'f> {
-    /// Reads what a run has written into its folder.
+    /// Reads what a run has written into its folder, and computes what is `wanted` of its columns.
     pub fn read(
         (variant, variant_name): (usize, String),
         scenario: &'f Scenario,
         folder: &Path,
+        wanted: &[&str],
     ) -> Result<Self, ReproductionError> {
         let file = folder.join("timeseries.csv");
         let unreadable = |reason: String| ReproductionError::TimeSeries { file: file.clone(), reason };
@@ -38,7 +39,33 @@ impl<'f> FinishedRun<'f> {
                 .ok_or_else(|| unreadable(format!("line {number} does not hold {} numbers", columns.len())))
         };
         let rows = lines.zip(2..).map(row).collect::<Result<_, _>>()?;
-        Ok(Self { variant, variant_name, scenario, folder: folder.to_owned(), columns, rows })
+        let folder = folder.to_owned();
+        let mut run = Self { variant, variant_name, scenario, folder, columns, rows };
+        wanted.iter().try_for_each(|text| run.add(text))?;
+        Ok(run)
+    }
+
+    /// Adds the column of a formula, unless it is there.
+    fn add(&mut self, text: &str) -> Result<(), ReproductionError> {
+        if self.columns.iter().any(|column| column == text) {
+            return Ok(());
+        }
+        let formula = Expression::parse(text).map_err(|reason| ReproductionError::TimeSeries {
+            file: self.folder.join("timeseries.csv"),
+            reason: format!("\"{text}\" {reason}"),
+        })?;
+        let columns: Vec<usize> =
+            formula.columns().iter().map(|name| self.column(name)).collect::<Result<_, _>>()?;
+        let first = self.rows.first().cloned().unwrap_or_default();
+        let of = |row: &[f64], number: usize| {
+            columns.get(number).and_then(|column| row.get(*column)).copied().unwrap_or(f64::NAN)
+        };
+        for row in &mut self.rows {
+            let value = formula.value(&|number| of(row, number), &|number| of(&first, number));
+            row.push(value);
+        }
+        self.columns.push(text.to_owned());
+        Ok(())
     }
 
     /// The index of a column.
@@ -129,9 +156,8 @@ fn cosine(scenario: &Scenario, stage: usize) -> Option<(f64, f64)> {
     })
 }
 
-#[cfg(test)]
 impl<'r> Phased<'r> {
-    /// A row for tests.
+    /// A row, and the cycles since the stage began.
     pub fn new(row: &'r [f64], phase: f64) -> Self {
         Self { row, phase }
     }

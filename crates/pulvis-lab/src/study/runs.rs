@@ -188,7 +188,13 @@ fn carry_out(
 
 /// Every measure of a run that has ended.
 fn measure_all(study: &Study, planned: &PlannedRun, own: &Path) -> Result<Vec<f64>, ReproductionError> {
-    let finished = FinishedRun::read((0, String::new()), &planned.scenario, own)?;
+    let measures = study.measures.iter().flat_map(|one| [Some(&one.measure), one.over.as_ref()]);
+    let columns = measures.flatten().flat_map(|measure| {
+        let within = measure.within.as_ref().map(|within| within.column.as_str());
+        [Some(measure.x.as_str()), Some(measure.y.as_str()), within]
+    });
+    let wanted: Vec<&str> = columns.flatten().collect();
+    let finished = FinishedRun::read((0, String::new()), &planned.scenario, own, &wanted)?;
     let value = |one: &pulvis_input::study::StudyMeasure| {
         let value = measure(&one.measure, &finished)?;
         one.over.as_ref().map_or(Ok(value), |over| Ok(value / measure(over, &finished)?))
