@@ -17,7 +17,7 @@ fn main() -> std::process::ExitCode {
         return std::process::ExitCode::from(2);
     };
     let folder = PathBuf::from(folder);
-    match write(folder.clone()).and_then(|()| write_formats(&folder)) {
+    match write(folder.clone()).and_then(|()| write_formats(&folder.join("formats"))) {
         Ok(()) => std::process::ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -74,6 +74,11 @@ fn write(folder: PathBuf) -> Result<(), IoError> {
 
 /// Three instants of seven spheres in every format, with 64 and with 32 bits.
 fn write_formats(folder: &Path) -> Result<(), IoError> {
+    std::fs::create_dir_all(folder).map_err(|source| IoError::System {
+        action: "create the folder",
+        path: folder.to_path_buf(),
+        source,
+    })?;
     let materials = ["glass".to_owned(), "steel".to_owned()];
     let bounds = Bounds {
         lower: [0.0, -1.0, 0.0],

@@ -36,7 +36,12 @@ impl<'a> Selection<'a> {
         'a: 'b,
     {
         match self.fields {
-            Some(fields) => fields.iter().map(String::as_str).collect(),
+            // Rows without ids, and particles without their material, would have to be numbered by the formats.
+            Some(fields) => {
+                let always =
+                    ["id", "type"].into_iter().filter(|name| fields.iter().all(|field| field != name));
+                always.chain(fields.iter().map(String::as_str)).collect()
+            }
             None => DEFAULT_PARTICLE_FIELDS.iter().copied().chain(own).collect(),
         }
     }

@@ -41,7 +41,8 @@ impl<'a> ParticleSums<'a> {
 
     /// The stress in each particle \[Pa\]: σ_km = 1/V Σ f_k l_m over its contacts, with the force f on it, the way l from
     /// the contact point to its centre and its volume V; compression positive. The sum of V σ over all particles is Σ f ⊗ b
-    /// over all contacts, the stress of observers times its volume, since the two ways of a contact add up to its branch.
+    /// over all contacts, since the two ways of a contact add up to its branch: the part of contacts in the stress of
+    /// observers, times its volume.
     ///
     /// # Source
     /// The Love-Weber formula: J. Christoffersen, M. M. Mehrabadi, S. Nemat-Nasser, J. Appl. Mech. 48, 339 (1981), with the

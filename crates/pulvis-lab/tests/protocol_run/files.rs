@@ -97,7 +97,13 @@ fn the_sums_over_particles_are_the_stress_of_observers_and_the_energies_of_the_l
                 / volume
         };
         let flipped: String = part.chars().rev().collect();
-        let sum = 0.5 * (mean(&format!("stress_{part}")) + mean(&format!("stress_{flipped}")));
+        let of_contacts = 0.5 * (mean(&format!("stress_{part}")) + mean(&format!("stress_{flipped}")));
+        // Observers add what moving particles carry.
+        let [mass, one, other] = ["mass", &format!("v{}", &part[..1]), &format!("v{}", &part[1..])]
+            .map(|name| numbers(&particles, name));
+        let of_motion: f64 =
+            (0..mass.len()).map(|row| mass[row] * one[row] * other[row]).sum::<f64>() / volume;
+        let sum = of_contacts + of_motion;
         near(sum, last(&format!("stress_{part}_all")), 1e3 * largest, part);
     }
     for name in ["kinetic_translation", "kinetic_rotation"] {
