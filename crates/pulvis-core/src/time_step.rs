@@ -321,13 +321,13 @@ mod tests {
             let found = time_at(Cylinder { axis, radius, side }.into(), body);
             // 1/a' = 1/a ∓ 1/(2R), with the same mass.
             let alike = Particle { radius: 1.0 / (1e3 + sign * 0.5 / radius), ..body };
-            let expected = time_at(plane, alike);
+            let expected = time_at(plane.clone(), alike);
             assert!(
                 (found.duration / expected.duration - 1.0).abs() < 1e-14,
                 "{side:?}: {found:?} {expected:?}"
             );
             // Duration falls as stiffness rises.
-            let flat = time_at(plane, body).duration;
+            let flat = time_at(plane.clone(), body).duration;
             assert!((found.duration < 0.9 * flat) == (side == CylinderSide::Inside), "{found:?} {flat}");
         }
     }

@@ -47,15 +47,21 @@ timeseries = { interval = "1 ms" }
 fn a_spring_that_stiffens_under_a_weight_does_the_work_of_its_closed_form() {
     let folder = tempfile::tempdir().unwrap();
     let summary = run(&scenario(STIFFENING), folder.path());
-    assert!(summary.energy_error_max < 1e-6, "{summary:?}");
+    // 50 steps a contact time, second order.
+    assert!(summary.energy_error_max < 1e-5, "{summary:?}");
     let series = Series::read(folder.path());
     let weight = 4.0 / 3.0 * std::f64::consts::PI * 4.5708e-3f64.powi(3) * 2500.0 * 10.0;
-    let expected = 0.5 * weight * weight * (1.0 / 100.0 - 1.0 / 400.0);
+    // 400 updates that each act at the overlap of the one before: the left sum of the integral, half a per cent more.
+    let stiffness = |update: i32| 100.0 + 300.0 / 400.0 * f64::from(update);
+    let expected: f64 =
+        (0..400).map(|update| 0.5 * (weight / stiffness(update)).powi(2) * 300.0 / 400.0).sum();
+    let integral = 0.5 * weight * weight * (1.0 / 100.0 - 1.0 / 400.0);
+    assert!(expected > integral && expected < 1.006 * integral);
     let switched = series.column("switched");
     let last = *switched.last().unwrap();
     let work = last - series.of_stage("switched", 1).last().unwrap();
-    // 400 updates that each act at the overlap of the one before: by 3/400 too much at most, half of that on the mean.
-    assert!((work / expected - 1.0).abs() < 5e-3, "{work:e} J instead of {expected:e}");
+    // The drag lets the grain lag behind.
+    assert!((work / expected - 1.0).abs() < 2e-3, "{work:e} J instead of {expected:e}");
     let force = series.column("force_plate");
     assert!((force.last().unwrap() / weight - 1.0).abs() < 1e-6, "{force:?}");
     // The last value holds in the stages that follow.
@@ -101,12 +107,13 @@ fn a_component_of_gravity_may_be_led() {
             "\"contacts.grain-plate.normal.k\" = [[\"0 s\", \"100 N/m\"], [\"1 s\", \"400 N/m\"]]",
             "\"gravity[0]\" = [[\"0 s\", \"0 m/s^2\"], [\"10 ms\", \"2 m/s^2\"]]",
         )
-        .replace("\"1.1 s\"", "\"10 ms\"");
+        .replace("\"1.1 s\"", "\"10 ms\"")
+        .replace("[output]", "[time]\nsteps_per_contact_time = 500\n[output]");
     let mut session = Session::new(scenario(&free)).unwrap();
     while session.stage() < 2 {
         session.advance(1, false).unwrap();
     }
-    // g(t) = 2 m/s² t/10 ms: v = ∫ g dt = 10 mm/s; 400 updates lag by half of one, 1/400.
+    // g(t) = 2 m/s² t/10 ms: v = ∫ g dt = 10 mm/s; updates lag by half of one, 1/400, and half a step of 640, 1/640.
     let velocity = session.simulation().particles().velocities()[0].x;
-    assert!((velocity / 0.01 - 1.0).abs() < 4e-3, "{velocity}");
+    assert!((velocity / 0.01 - 1.0).abs() < 6e-3, "{velocity}");
 }

@@ -5,7 +5,7 @@ use crate::overrides::Replacement;
 use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::Text;
-use crate::value::Value;
+use crate::value::{Value, split_path};
 use crate::value_reader::ValueReader;
 
 /// Keys of a scenario and the values that take the place of its own.
@@ -57,6 +57,14 @@ pub(crate) fn read_replacement(value: &ValueReader<'_>) -> Result<Replacement, R
     }
 }
 
+/// Refuses what is no path of keys, which stands at `place` of a table.
+pub(crate) fn refuse_unreadable(table: &TableReader<'_>, place: &str, path: &str) -> Result<(), Reported> {
+    match split_path(path) {
+        Some(_) => Ok(()),
+        None => Err(table.refuse(place, Problem::UnreadablePath { path: path.to_owned() })),
+    }
+}
+
 /// Reads `set`: a table of dotted paths and texts, numbers or truth values.
 pub(crate) fn read_settings(table: &mut TableReader<'_>) -> Result<Settings, Reported> {
     let Some(mut set) = table.optional_table("set")? else { return Ok(Vec::new()) };
@@ -64,7 +72,7 @@ pub(crate) fn read_settings(table: &mut TableReader<'_>) -> Result<Settings, Rep
     let mut failure = None;
     for key in set.keys() {
         let Some(value) = set.value(key) else { continue };
-        match read_replacement(&value) {
+        match refuse_unreadable(&set, key, key).and_then(|()| read_replacement(&value)) {
             Ok(replacement) => settings.push((key.to_owned(), replacement)),
             Err(reported) => failure = Some(reported),
         }

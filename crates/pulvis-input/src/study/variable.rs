@@ -3,7 +3,7 @@
 use crate::any_quantity::AnyQuantity;
 use crate::context::{Location, Reported};
 use crate::decimal::split_number;
-use crate::figure::settings::{Settings, read_replacement};
+use crate::figure::settings::{Settings, read_replacement, refuse_unreadable};
 use crate::list::List;
 use crate::overrides::Replacement;
 use crate::problem::Problem;
@@ -99,6 +99,7 @@ struct Read {
 /// `key` with `values`, or with `from`, `to`, `points` and `spacing`.
 fn read_one_key(table: &mut TableReader<'_>) -> Result<Read, Reported> {
     let path = table.required("key", Text)?;
+    refuse_unreadable(table, "key", &path)?;
     if table.value("values").is_none() && RANGE_KEYS.iter().any(|key| table.keys().contains(key)) {
         return read_steps(table, path);
     }
@@ -223,7 +224,11 @@ fn read_row(mut table: TableReader<'_>) -> Result<Row, Reported> {
     let keys = table.keys();
     let read: Vec<_> = keys
         .into_iter()
-        .filter_map(|key| table.value(key).map(|value| Ok((key.to_owned(), written(&value)?))))
+        .filter_map(|key| {
+            let value = table.value(key)?;
+            let read = refuse_unreadable(&table, key, key).and_then(|()| written(&value));
+            Some(read.map(|written| (key.to_owned(), written)))
+        })
         .collect();
     table.finish();
     Ok((read.into_iter().collect::<Result<_, Reported>>()?, location))

@@ -262,7 +262,7 @@ mod tests {
             ("NumberOfPoints=\"2\"", "NumberOfPoints=\"3\"", "it has 2 points and announces 3"),
             ("Name=\"Points\"", "Name=\"Pints\"", "it has no points"),
             ("<Piece", "<Peace", "it has no piece"),
-            ("Float64\" Name=\"a&lt;b\"", "Float32\" Name=\"a&lt;b\"", "array `a<b` has the type Float32"),
+            ("Float64\" Name=\"a&lt;b\"", "Float16\" Name=\"a&lt;b\"", "array `a<b` has the type Float16"),
         ] {
             assert!(text.contains(from), "{from}");
             std::fs::write(&file, text.replacen(from, to, 1)).unwrap();
