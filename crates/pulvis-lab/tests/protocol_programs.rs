@@ -1,6 +1,7 @@
 //! Parameters that change while a stage runs.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::disallowed_methods)] // expectations, to some digits
 
 mod protocol_scenarios;
 

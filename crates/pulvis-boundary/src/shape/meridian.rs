@@ -76,7 +76,8 @@ impl Meridian {
         let signed = if far { -from_axis } else { from_axis };
         let foot = self.foot([signed, height]);
         // At the tip of a cone both sides are one point.
-        if !(foot.distance < limit) || far && foot.radius <= 0.0 {
+        let is_near = foot.distance < limit;
+        if !is_near || far && foot.radius <= 0.0 {
             return None;
         }
         let distance = foot.distance;

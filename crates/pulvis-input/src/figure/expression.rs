@@ -246,6 +246,8 @@ pub(super) fn checked(table: &TableReader<'_>, key: &str, text: String) -> Resul
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
     use super::*;
 
     /// The value with a = 3, b = 4 (1 and 2 in the first row).

@@ -40,9 +40,9 @@ pub enum Source {
     /// Rows of a run.
     Rows {
         /// The number.
-        measure: Measure,
+        measure: Box<Measure>,
         /// By what it is divided.
-        over: Option<Measure>,
+        over: Option<Box<Measure>>,
     },
     /// Features at several places, by a line through them.
     Fit(Fit),
@@ -63,7 +63,7 @@ impl Source {
     /// All that it takes out of rows.
     pub fn measures(&self) -> impl Iterator<Item = &Measure> {
         let (one, other) = match self {
-            Self::Rows { measure, over } => (Some(measure), over.as_ref()),
+            Self::Rows { measure, over } => (Some(&**measure), over.as_deref()),
             Self::Fit(_) => (None, None),
         };
         one.into_iter().chain(other)
@@ -232,7 +232,7 @@ fn read_source(table: &mut TableReader<'_>, data: &[FigureData]) -> Result<Sourc
         over.finish();
         read.map(Some)
     });
-    Ok(Source::Rows { measure: measure?, over: over? })
+    Ok(Source::Rows { measure: Box::new(measure?), over: over?.map(Box::new) })
 }
 
 /// Reads a fit through the features `before` that have its key and a place.

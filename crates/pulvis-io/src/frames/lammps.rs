@@ -84,7 +84,7 @@ fn head(
         writeln!(out, "ITEM: UNITS\nsi")?;
     }
     // Times in full: readers tell frames apart by them.
-    write!(out, "ITEM: TIME\n")?;
+    writeln!(out, "ITEM: TIME")?;
     number(out, instant.time, Precision::Double)?;
     writeln!(out, "\nITEM: TIMESTEP\n{}\nITEM: NUMBER OF {what}\n{rows}", instant.step)?;
     bounds(out, &instant.bounds, precision)

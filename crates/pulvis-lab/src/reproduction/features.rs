@@ -57,7 +57,7 @@ pub(super) fn look_for(
     let mut seen: Vec<SeenFeature> = Vec::with_capacity(features.len());
     for feature in features {
         let values = match &feature.source {
-            Source::Rows { measure, over } => of_runs(measure, over.as_ref(), results)?,
+            Source::Rows { measure, over } => of_runs(measure, over.as_deref(), results)?,
             Source::Fit(fit) => of_fit(fit, &seen),
         };
         seen.push(SeenFeature { feature: feature.clone(), values });

@@ -81,7 +81,7 @@ fn the_sums_over_particles_are_the_stress_of_observers_and_the_energies_of_the_l
     };
     let volume: f64 = ["length_x", "length_y", "length_z"].map(last).iter().product();
     let radii = numbers(&particles, "radius");
-    let sphere = |radius: &f64| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
+    let sphere = |radius: &f64| 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius;
     let largest = ["xx", "yy", "zz"]
         .map(|part| last(&format!("stress_{part}_all")).abs())
         .into_iter()

@@ -101,7 +101,7 @@ impl Scenario {
                 WallShape::Cone(cone) => {
                     writer.key("axis", vector(cone.axis, Dimension::NONE));
                     let radii = cone.radii.map(|radius| quantity(radius, Dimension::LENGTH));
-                    writer.key("radii", list(radii.into_iter()));
+                    writer.key("radii", list(radii));
                     writer.key("height", quantity(cone.height, Dimension::LENGTH));
                 }
                 WallShape::Tube(tube) => {

@@ -1,4 +1,5 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::disallowed_methods)] // expectations, to some digits
 
 use super::*;
 use crate::protocol::prepare;
