@@ -182,8 +182,8 @@ fn picked(table: &Table, column: &str, stage: Option<f64>, pick: &str) -> Outcom
     let [first, .., last] = values[..] else {
         return Err(format!("less than two rows of `{column}` in stage {stage:?}"));
     };
-    // A minimum or maximum would pass over NaN.
-    if values.iter().any(|value| value.is_nan()) {
+    // A minimum or maximum would pass over NaN; one row has nothing to do with the others.
+    if !matches!(pick, "first" | "last") && values.iter().any(|value| value.is_nan()) {
         return Ok(f64::NAN);
     }
     Ok(match pick {
