@@ -12,6 +12,9 @@ const MOST: f64 = 0.9;
 /// Spheres this share of the box' longest side beyond its faces are still in the view.
 const AROUND_BOX: f64 = 0.5;
 
+/// Most spheres, if they are within this many times that side, are in the view with the box.
+const NEAR_BOX: f64 = 5.0;
+
 /// The spheres of a scene that the view takes in.
 #[derive(Clone, Debug)]
 pub(super) struct Selection {
@@ -26,8 +29,8 @@ pub(super) struct Selection {
 }
 
 impl Selection {
-    /// The view holds the limits of the scene, else the outlines and the spheres near them; without these, the bulk of the
-    /// spheres.
+    /// The view holds the limits of the scene, else the outlines, the spheres near them and the bulk of the spheres if it is not
+    /// far away; without outlines, the bulk of the spheres.
     pub(super) fn of(scene: &Scene<'_>) -> Self {
         let drawable: Vec<bool> = scene
             .centres
@@ -35,7 +38,7 @@ impl Selection {
             .zip(scene.radii)
             .map(|(&centre, &radius)| can_be_drawn(centre, radius))
             .collect();
-        let around = || outline_limits(scene).or_else(|| bulk_limits(scene, &drawable));
+        let around = || outline_limits(scene, &drawable).or_else(|| bulk_limits(scene, &drawable));
         let limits = scene.limits.or_else(around);
         let inside = |centre: &[f64; 3]| {
             limits
@@ -79,10 +82,24 @@ fn can_be_drawn(centre: [f64; 3], radius: f64) -> bool {
     centre.iter().all(|x| x.abs() < 1.0e100) && radius > 0.0 && radius < 1.0e100
 }
 
-/// Limits around all outlines.
-fn outline_limits(scene: &Scene<'_>) -> Option<[[f64; 3]; 2]> {
-    let [low, high] = outline::limits(&scene.all_edges())?;
+/// Limits around all outlines, and around most of the spheres where these are not far from them: a tube that was lifted is not
+/// all that there is to see.
+fn outline_limits(scene: &Scene<'_>, drawable: &[bool]) -> Option<[[f64; 3]; 2]> {
+    let [mut low, mut high] = outline::limits(&scene.all_edges())?;
     let longest = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
+    let chosen = || (0..drawable.len()).filter(|&number| drawable[number]);
+    let ends = |share: f64| -> Option<Vec<f64>> {
+        (0..3).map(|axis| quantile(chosen().map(|number| scene.centres[number][axis]), share)).collect()
+    };
+    if let (Some(first), Some(last)) = (ends(1.0 - MOST), ends(MOST)) {
+        let reach = NEAR_BOX * longest;
+        if (0..3).all(|axis| first[axis] >= low[axis] - reach && last[axis] <= high[axis] + reach) {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(first[axis]);
+                high[axis] = high[axis].max(last[axis]);
+            }
+        }
+    }
     let margin = AROUND_BOX * longest;
     Some([low.map(|x| x - margin), high.map(|x| x + margin)])
 }
@@ -136,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn with_a_box_the_view_is_the_box_even_if_all_have_left_it() {
+    fn with_a_box_the_view_is_the_box_even_if_all_have_flown_far_from_it() {
         let centres: Vec<[f64; 3]> =
             grid(100).iter().map(|centre| centre.map(|x| 1.0e6 * (x + 1.0))).collect();
         let (radii, values) = (vec![0.5; 100], vec![0.0; 100]);
@@ -145,6 +162,16 @@ mod tests {
         let selection = Selection::of(&scene);
         assert_eq!(selection.count(), 0);
         assert_eq!(selection.notes(&scene), ["100 of 100 particles lie outside the view"]);
+    }
+
+    #[test]
+    fn grains_that_a_tube_has_left_behind_are_in_the_view_with_it() {
+        let centres = grid(100);
+        let (radii, values) = (vec![0.5; 100], vec![0.0; 100]);
+        let edges = OutlineBox { low: [0.0, 0.0, 12.0], high: [4.0, 4.0, 16.0] }.edges();
+        let scene = Scene { edges: &edges, ..Scene::new(&centres, &radii, &values) };
+        let selection = Selection::of(&scene);
+        assert_eq!((selection.count(), selection.notes(&scene).len()), (100, 0));
     }
 
     #[test]
