@@ -68,7 +68,7 @@ fn what_is_left_out_has_its_default() {
         snapshots: Snapshots::StageEnds,
         files: Vec::new(),
         plots: true,
-        clusters: false,
+        clusters: ClusterRule::Never,
         checkpoints: Some(CheckpointPlan::default()),
         dimensionless: None,
     };

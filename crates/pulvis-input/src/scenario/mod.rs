@@ -84,7 +84,7 @@ pub use mesh_file::MeshFileError;
 pub use observers::{ObservedQuantity, Observer};
 pub use openings::Schedule;
 pub use outlets::{Outlet, OutletZone};
-pub use output::{CheckpointPlan, Dimensionless, Interval, OutputPlan, Snapshots};
+pub use output::{CheckpointPlan, ClusterRule, Dimensionless, Interval, OutputPlan, Snapshots};
 pub use output_files::{
     CONTACT_FIELDS, ContactFields, DEFAULT_CONTACT_FIELDS, DEFAULT_PARTICLE_FIELDS, FileFormat, OutputFiles,
     PARTICLE_FIELDS,
