@@ -1,6 +1,6 @@
 //! Groups of particles.
 
-use super::arrangement::{Arrangement, MOST_PARTICLES, read_arrangement};
+use super::arrangement::{Arrangement, Grain, MOST_PARTICLES, read_arrangement};
 use super::columns::{ParticleColumn, read_columns};
 use super::materials::{Material, needs_density, read_material_with_density};
 use super::radius::read_radius;
@@ -154,6 +154,10 @@ fn read_group(
     if let (Ok(material), Ok(Some(radius))) = (material, &radius) {
         check_masses(&table, materials.get(material), radius)?;
     }
+    if let (Ok(material), Ok(None), Ok(Arrangement::File { grains, .. })) = (material, &radius, &arrangement)
+    {
+        check_grains(&table, materials, material, grains)?;
+    }
     if let (Ok(Arrangement::Random(block)), Ok(count), Ok(Some(radius))) = (&arrangement, &count, &radius) {
         fitting_block(&table, block, *count, radius.limits().0)?;
     }
@@ -169,15 +173,35 @@ pub(super) fn check_masses(
     material: Option<&Material>,
     radius: &RadiusDistribution,
 ) -> Result<(), Reported> {
-    let density = material.and_then(|material| material.density.filter(|value| value.is_finite()));
     let (smallest, largest) = radius.limits();
-    for radius in [smallest, largest] {
-        let mass = density.unwrap_or(1.0) * 4.0 / 3.0 * PI * elementary::powi(radius, 3);
-        if let Some(problem) = unfit_for_numbers(&Sphere { radius, mass }) {
-            return Err(table.refuse("radius", problem));
+    match [smallest, largest].into_iter().find_map(|radius| unfit_for_numbers(&sphere(radius, material))) {
+        Some(problem) => Err(table.refuse("radius", problem)),
+        None => Ok(()),
+    }
+}
+
+/// Refuses particles of a file of which the engine cannot compute; those without a material of their own have that of the group.
+fn check_grains(
+    table: &TableReader<'_>,
+    materials: &[Material],
+    material: usize,
+    grains: &[Grain],
+) -> Result<(), Reported> {
+    for (number, grain) in grains.iter().enumerate() {
+        let Some(radius) = grain.radius else { continue };
+        let sphere = sphere(radius, materials.get(grain.material.unwrap_or(material)));
+        if let Some(Problem::Rule { found, expected }) = unfit_for_numbers(&sphere) {
+            let found = format!("particle {} of the file: {found}", number + 1);
+            return Err(table.refuse("arrangement", Problem::rule(found, expected)));
         }
     }
     Ok(())
+}
+
+/// A particle of a radius [m]; what is wrong with a density is told elsewhere.
+fn sphere(radius: f64, material: Option<&Material>) -> Sphere {
+    let density = material.and_then(|material| material.density.filter(|value| value.is_finite()));
+    Sphere { radius, mass: density.unwrap_or(1.0) * 4.0 / 3.0 * PI * elementary::powi(radius, 3) }
 }
 
 /// The material of a group, or of the first particle of its file; all that particles are made of have a density.
