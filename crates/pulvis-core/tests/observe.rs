@@ -11,6 +11,7 @@ use common::{
 use pulvis_contact::theory::JkrPair;
 use pulvis_contact::{ContactModel, Jkr, Normal};
 use pulvis_core::{Binding, ContactPartner, ContactTotals, ContactView, Simulation};
+use pulvis_math::elementary;
 
 /// The totals by a look at one contact after the other.
 fn looked_at(simulation: &Simulation) -> ContactTotals {
@@ -98,8 +99,8 @@ fn an_adhesive_pair_is_bound_until_it_moves_with_the_energy_that_breaks_its_cont
     let (modulus, adhesion) = (1e8, 0.1);
     let theory = JkrPair::new(modulus, adhesion, 0.5 * RADIUS).unwrap();
     let rest = theory.overlap(theory.unloaded_radius());
-    let ratio = adhesion.powi(5) * (0.5 * RADIUS).powi(4) / (modulus * modulus);
-    let expected = 11.6946 * ratio.cbrt();
+    let ratio = elementary::powi(adhesion, 5) * elementary::powi(0.5 * RADIUS, 4) / (modulus * modulus);
+    let expected = 11.6946 * elementary::cbrt(ratio);
     let model = || ContactModel::frictionless(Jkr::new(modulus, adhesion));
     let [still] = bindings(model(), rest, 0.0)[..] else { panic!("one contact") };
     assert!((still.work_to_part / expected - 1.0).abs() < 2e-3, "{still:?} {expected:e}");
@@ -130,7 +131,7 @@ fn a_luding_contact_is_held_by_its_adhesive_triangle() {
     let (rest, least) =
         ((1.0 - law.k1 / stiffness) * deepest, (stiffness - law.k1) / (stiffness + law.kc) * deepest);
     let held = 0.5 * law.kc * least * rest;
-    let driven = 0.5 * (law.k1 * deepest).powi(2) / stiffness;
+    let driven = 0.5 * (law.k1 * deepest) * (law.k1 * deepest) / stiffness;
     let [seen] = bindings(luding(), deepest, 0.0)[..] else { panic!("one contact") };
     let expected = held - driven;
     assert!(expected > 0.0 && (seen.work_to_part / expected - 1.0).abs() < 2e-2, "{seen:?} {expected:e}");

@@ -39,7 +39,7 @@ pub enum ClusterRule {
     Never,
     /// Contacts that act.
     Acting,
-    /// Contacts that act and whose bodies are not on their way apart: see `ContactView::is_bound` of the engine.
+    /// Contacts that act and whose bodies are not on their way apart: see `Binding::is_bound` of the engine.
     Bound,
 }
 
