@@ -60,6 +60,9 @@ impl Grid {
     /// Middles of cells beyond a periodic face count for the cell that holds their image.
     pub(super) fn shares(&self, at: Vector3, kernel: Kernel, width: f64, shares: &mut Vec<Share>) {
         shares.clear();
+        if !at.to_array().iter().all(|x| x.is_finite()) {
+            return;
+        }
         let reach = kernel.reach(width);
         let range = [0, 1, 2].map(|axis| {
             let first = (at[axis] - reach - self.lower[axis]) / self.cell[axis] - 0.5;

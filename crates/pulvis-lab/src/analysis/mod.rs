@@ -134,24 +134,19 @@ pub fn analyse(
         return Err(AnalysisError::Folder(folder.to_owned()));
     }
     let mut analysis = Analysis { files: Vec::new(), width: 0.0, counts: [0; 3] };
-    let mut samples = Vec::new();
-    for instant in source.choose(plan.frames)? {
-        let frame = source.read(&instant, true)?;
-        samples.push((instant.name.clone(), Sample::of_frame(scenario, domain, instant.time, &frame)?));
+    let instants = source.choose(plan.frames)?;
+    // Frames are read twice, one at a time: many of them do not fit into the memory together.
+    let mut extent = Extent::default();
+    for instant in &instants {
+        let frame = source.read(instant, false)?;
+        extent.add(&Sample::of_frame(scenario, domain, instant.time, &frame)?);
     }
-    // Before inlets have brought anything there is nothing to take the width from.
-    let radius = samples.iter().find_map(|(_, sample)| sample.mean_radius());
-    let time = samples.first().map_or(0.0, |(_, sample)| sample.time);
-    let radius = radius.ok_or(AnalysisError::Empty(time))?;
+    let time = instants.first().map_or(0.0, |instant| instant.time);
+    let radius = extent.radius.ok_or(AnalysisError::Empty(time))?;
     analysis.width = plan.width.unwrap_or(2.0 * radius);
     let cell = plan.cell.unwrap_or(0.5 * analysis.width);
     // One grid for all instants, so that they can be compared.
-    let grid = common_grid(
-        samples.iter().map(|(_, sample)| sample),
-        plan.kernel.reach(analysis.width),
-        cell,
-        domain,
-    )?;
+    let grid = extent.grid(plan.kernel.reach(analysis.width), cell, domain)?;
     analysis.counts = grid.counts;
     std::fs::create_dir_all(folder)
         .map_err(|source| AnalysisError::NoFolder { folder: folder.to_owned(), source })?;
@@ -160,8 +155,10 @@ pub fn analyse(
         analysis.files.push(path.clone());
         path
     };
-    for (name, sample) in &samples {
-        let fields = Fields::new(sample, grid.clone(), plan.kernel, analysis.width);
+    for instant in &instants {
+        let name = &instant.name;
+        let sample = Sample::of_frame(scenario, domain, instant.time, &source.read(instant, true)?)?;
+        let fields = Fields::new(&sample, grid.clone(), plan.kernel, analysis.width);
         files::write_vtk(&fields, &add(format!("fields_{name}.vti")))?;
         files::write_table(&fields, &add(format!("fields_{name}.csv")))?;
         if let Some(axis) = plan.profile {
@@ -173,35 +170,46 @@ pub fn analyse(
     Ok(analysis)
 }
 
-/// A grid that holds all particles of all samples with the reach of the kernel around them, so that nothing is lost.
-fn common_grid<'s>(
-    samples: impl Iterator<Item = &'s Sample>,
-    reach: f64,
-    cell: f64,
-    domain: Domain,
-) -> Result<Grid, AnalysisError> {
-    let (mut lower, mut upper) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for sample in samples {
+/// The block around all particles of some instants.
+#[derive(Clone, Debug)]
+struct Extent {
+    lower: [f64; 3],
+    upper: [f64; 3],
+    /// The mean radius of the first instant with particles \[m\]: before inlets have brought anything there is none.
+    radius: Option<f64>,
+}
+
+impl Default for Extent {
+    fn default() -> Self {
+        Self { lower: [f64::INFINITY; 3], upper: [f64::NEG_INFINITY; 3], radius: None }
+    }
+}
+
+impl Extent {
+    fn add(&mut self, sample: &Sample) {
         for grain in &sample.particles {
             for axis in 0..3 {
                 // Contact points on walls lie on the surfaces of particles.
-                let room = reach + grain.radius;
-                lower[axis] = lower[axis].min(grain.position[axis] - room);
-                upper[axis] = upper[axis].max(grain.position[axis] + room);
+                self.lower[axis] = self.lower[axis].min(grain.position[axis] - grain.radius);
+                self.upper[axis] = self.upper[axis].max(grain.position[axis] + grain.radius);
             }
         }
+        let count = sample.particles.len();
+        if self.radius.is_none() && count > 0 {
+            let sum: f64 = sample.particles.iter().map(|grain| grain.radius).sum();
+            self.radius = Some(sum / count as f64);
+        }
     }
-    let found: f64 = (0..3).map(|axis| ((upper[axis] - lower[axis]) / cell).max(1.0)).product();
-    if !(found <= MOST_CELLS) {
-        return Err(AnalysisError::Cells { found, cell });
-    }
-    Ok(Grid::new(lower, upper, cell, domain))
-}
 
-impl Sample {
-    /// The mean radius \[m\], if there are particles.
-    fn mean_radius(&self) -> Option<f64> {
-        let count = self.particles.len();
-        (count > 0).then(|| self.particles.iter().map(|grain| grain.radius).sum::<f64>() / count as f64)
+    /// A grid that holds all particles with the reach of the kernel around them, so that nothing is lost.
+    fn grid(&self, reach: f64, cell: f64, domain: Domain) -> Result<Grid, AnalysisError> {
+        let lower = self.lower.map(|lower| lower - reach);
+        let upper = self.upper.map(|upper| upper + reach);
+        let found: f64 = (0..3).map(|axis| ((upper[axis] - lower[axis]) / cell).max(1.0)).product();
+        // Not finite where nothing is.
+        if found.is_finite() && found <= MOST_CELLS {
+            return Ok(Grid::new(lower, upper, cell, domain));
+        }
+        Err(AnalysisError::Cells { found, cell })
     }
 }

@@ -40,7 +40,9 @@ fn sample(domain: Domain) -> Sample {
 }
 
 fn all_fields(sample: &Sample, kernel: Kernel, width: f64, cell: f64) -> Fields {
-    let grid = common_grid(std::iter::once(sample), kernel.reach(width), cell, sample.domain).unwrap();
+    let mut extent = Extent::default();
+    extent.add(sample);
+    let grid = extent.grid(kernel.reach(width), cell, sample.domain).unwrap();
     Fields::new(sample, grid, kernel, width)
 }
 
