@@ -136,6 +136,16 @@ fn measure(page: Page<'_>) -> Value {
         ],
         &["column", "from", "to"],
     );
+    let formula = table_of(
+        [
+            ("amplitude", Some("y at the start, in SI.".to_owned()), number()),
+            ("scale", Some("What x - start is compared with, in SI.".to_owned()), number()),
+            ("exponent", Some("The power.".to_owned()), number()),
+            ("start", Some("x at the start, in SI.\n\nDefault: 0".to_owned()), number()),
+            ("offset", Some("What is added, in SI.\n\nDefault: 0".to_owned()), number()),
+        ],
+        &["amplitude", "scale", "exponent"],
+    );
     let reduction = || {
         vec![
             ("value", choice(Reduction::NAMED.iter().map(|(name, _)| *name))),
@@ -144,6 +154,7 @@ fn measure(page: Page<'_>) -> Value {
             ("stage", text()),
             ("within", within.clone()),
             ("cycles", exactly(2, number())),
+            ("formula", formula.clone()),
         ]
     };
     let over = page.table(reduction(), &[]);
