@@ -243,7 +243,7 @@ fn output(page: Page<'_>) -> Value {
             ("timeseries", interval()),
             ("vtk", either([boolean(), interval()])),
             ("plots", boolean()),
-            ("clusters", boolean()),
+            ("clusters", either([boolean(), choice(["bound"])])),
             ("checkpoints", either([boolean(), checkpoints])),
             ("dimensionless", dimensionless),
             ("files", tables(files(page))),
