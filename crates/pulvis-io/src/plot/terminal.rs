@@ -55,7 +55,7 @@ impl Chart {
         text += &format!("{blank}└{}\n", edge_below(&x_ticks, width));
         text += &format!("{blank} {}\n", labels_below(&x_ticks, width));
         let label = unit::label(&self.x.label, x_exponent);
-        text + &format!("{blank} {label:^width$}").trim_end() + "\n"
+        text + format!("{blank} {label:^width$}").trim_end() + "\n"
     }
 
     fn legend(&self, colours: bool, letters: bool) -> String {
