@@ -3,7 +3,7 @@
 
     python3 scripts/check_formats.py <run folder>/formats
 
-NumPy reads the npz archives, pandas the CSV tables, VTK the frames, OVITO dumps and extended XYZ. What is not installed is
+NumPy reads the npz archives, pandas the CSV tables, VTK the frames and an image, OVITO dumps and extended XYZ. What is not installed is
 skipped aloud.
 
 Exit status: 0 all well, 1 trouble, 2 wrong use.
@@ -109,7 +109,46 @@ def check_vtk(folder, end):
         for name, values in found.items():
             compare(numpy, values, name, step, end, file)
             require(values.dtype == ("float64" if end == "double" else "float32"), f"{file}: {name} is {values.dtype}")
+        if end == "double":
+            check_surfaces(folder, number, step)
     print(f"VTK reads vtk ({end})")
+
+
+def check_surfaces(folder, number, step):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    reader = vtkXMLPolyDataReader()
+    file = os.path.join(folder, f"vtk_double_surfaces_{number:04d}.vtp")
+    reader.SetFileName(file)
+    reader.Update()
+    data = reader.GetOutput()
+    require(data.GetNumberOfPolys() == 1 and data.GetNumberOfPoints() == 3, f"{file}: no triangle")
+    height = vtk_to_numpy(data.GetPoints().GetData())[:, 2]
+    require((height == step / 700.0).all(), f"{file}: another height")
+    require(vtk_to_numpy(data.GetCellData().GetArray("wall")).tolist() == [2], f"{file}: another wall")
+
+
+def check_image(folder, end):
+    import numpy
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+
+    if end != "double":
+        return
+    reader = vtkXMLImageDataReader()
+    file = os.path.join(folder, "image.vti")
+    reader.SetFileName(file)
+    reader.Update()
+    data = reader.GetOutput()
+    require(data.GetDimensions() == (5, 4, 3), f"{file}: {data.GetDimensions()} points")
+    require(data.GetOrigin() == (-1.0, 0.0, 0.1), f"{file}: another origin")
+    require(data.GetSpacing() == (0.5, 0.25, 1.0 / 3.0), f"{file}: another spacing")
+    density = vtk_to_numpy(data.GetCellData().GetArray("density"))
+    require((density == numpy.arange(24) / 7.0).all(), f"{file}: density differs")
+    stress = vtk_to_numpy(data.GetCellData().GetArray("stress"))
+    require((stress == numpy.arange(24.0)[:, None] + numpy.arange(9) / 3.0).all(), f"{file}: stress differs")
+    print("VTK reads images of fields")
 
 
 def check_ovito(folder, end):
@@ -141,7 +180,7 @@ def main(arguments):
         print(__doc__)
         return 2
     try:
-        for check in (check_npz, check_csv, check_vtk, check_ovito):
+        for check in (check_npz, check_csv, check_vtk, check_image, check_ovito):
             for end in ("double", "single"):
                 try:
                     check(arguments[0], end)

@@ -3,7 +3,7 @@
 
     python3 scripts/check_vtk.py <run folder> [--sample]
 
-Every `*series.pvd` of the folder is opened; each frame must have the block Particles and may have Contacts and Walls, one value per
+Every `*series.pvd` of the folder is opened; each frame must have the block Particles and may have Contacts, Walls and Surfaces, one value per
 row in each array, and times that increase. With --sample the values of the example `sample_run` of pulvis-io are
 compared too. OVITO repeats the check if it is installed.
 
@@ -51,7 +51,7 @@ def read_blocks(path):
         name = blocks.GetMetaData(number).Get(blocks.NAME())
         require(blocks.GetBlock(number) is not None, f"block {name} of {path} is empty: its file cannot be read")
         named[name] = blocks.GetBlock(number)
-    known = {"Particles", "Contacts", "Walls"}
+    known = {"Particles", "Contacts", "Walls", "Surfaces"}
     require({"Particles"} <= set(named) <= known, f"{path} has the blocks {sorted(named)}")
     return named
 

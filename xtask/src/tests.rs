@@ -1,10 +1,10 @@
 //! `cargo xtask test`: the tests of the workspace, and readers of its files that are not its own.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::Outcome;
-use crate::process::{cargo, root, run, scratch, target, works};
+use crate::process::{cargo, pulvis, root, run, scratch, target, works};
 
 /// All tests.
 pub fn run_all() -> Outcome {
@@ -65,7 +65,21 @@ fn sample_files() -> Outcome {
     run(&mut cargo(&["run", "--quiet", "-p", "pulvis-io", "--example", "sample_run", "--", &path]))?;
     read_by_vtk(&folder, &["--sample"])?;
     let Some(python) = python_with_vtk() else { return Ok(()) };
-    run(Command::new(python).arg(root().join("scripts/check_formats.py")).arg(folder.join("formats")))
+    run(Command::new(&python).arg(root().join("scripts/check_formats.py")).arg(folder.join("formats")))?;
+    schemas(&python)
+}
+
+/// The schemas for editors, held against all scenario files by a validator that is not ours.
+fn schemas(python: &Path) -> Outcome {
+    let has_validator = || works(Command::new(python).args(["-c", "import tomllib, jsonschema"]));
+    // An environment of an earlier version has none.
+    let install = ["-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "20", "jsonschema"];
+    if !has_validator() && !(works(Command::new(python).args(install)) && has_validator()) {
+        println!("skipped: schemas are not checked, Python has no `jsonschema`, or is older than 3.11");
+        return Ok(());
+    }
+    let mut command = Command::new(python);
+    run(command.arg(root().join("scripts/check_schema.py")).arg(pulvis()?).arg(root()))
 }
 
 /// Has Python's VTK read a run folder, unless it cannot be had, which is said.
@@ -98,11 +112,23 @@ fn python_with_vtk() -> Option<PathBuf> {
         );
         return None;
     }
-    let install =
-        ["-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "20", "vtk", "numpy", "pandas"];
+    let install = [
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--retries",
+        "1",
+        "--timeout",
+        "20",
+        "vtk",
+        "numpy",
+        "pandas",
+        "jsonschema",
+    ];
     if !works(Command::new(&python).args(install)) || !has_vtk() {
         println!(
-            "skipped: files are not read by their own readers, `pip install vtk numpy pandas` does not work here"
+            "skipped: files are not read by their own readers, `pip install vtk numpy pandas jsonschema` does not work here"
         );
         return None;
     }

@@ -6,7 +6,7 @@ mod failure;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 
 use commands::Command;
 
@@ -21,6 +21,11 @@ use commands::Command;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+}
+
+/// The whole command line, for what is made of its description.
+pub(crate) fn command_line() -> clap::Command {
+    Arguments::command()
 }
 
 fn main() -> ExitCode {

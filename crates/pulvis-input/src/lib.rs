@@ -10,7 +10,8 @@
 //! - [`mod@contact`], [`comparison`]: all laws of a contact, and contacts to be compared;
 //! - [`scenario`], [`collision`], [`probe`]: the scenario of a run, of a pair collision, and of a contact on a
 //!   prescribed path, each checked as a whole; [`figure`]: a figure that is reproduced from such scenarios;
-//!   [`study`]: a scenario of a run over seeds and values.
+//!   [`study`]: a scenario of a run over seeds and values;
+//! - [`schema`]: the same files as JSON schemas, for editors.
 //!
 //! # Example
 //! ```
@@ -48,6 +49,7 @@ pub mod quantity;
 pub mod reader;
 mod rule;
 pub mod scenario;
+pub mod schema;
 mod setting;
 pub mod shape;
 mod similar;

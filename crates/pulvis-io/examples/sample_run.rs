@@ -7,7 +7,8 @@
 use pulvis_io::IoError;
 use pulvis_io::frames::{Bounds, FORMATS, Instant, Precision, Series};
 use pulvis_io::vtk::{
-    Column, ContactFrame, Frame, Numbers, ParticleFrame, PolyData, SeriesWriter, WallFrame,
+    Column, ContactFrame, Frame, ImageGrid, Numbers, ParticleFrame, PolyData, SeriesWriter, WallFrame,
+    write_image,
 };
 use std::path::{Path, PathBuf};
 
@@ -86,6 +87,13 @@ fn write_formats(folder: &Path) -> Result<(), IoError> {
         tilt: [0.5, 0.0, -0.25],
         periodic: [true, false, true],
     };
+    // A grid of 4 x 3 x 2 cells.
+    let values: Vec<f64> = (0..24).map(|cell| f64::from(cell) / 7.0).collect();
+    let tensors: Vec<[f64; 9]> =
+        (0..24).map(|cell| std::array::from_fn(|part| f64::from(cell) + part as f64 / 3.0)).collect();
+    let grid = ImageGrid { origin: [-1.0, 0.0, 0.1], spacing: [0.5, 0.25, 1.0 / 3.0], cells: [4, 3, 2] };
+    let columns = [Column::scalar("density", &values), Column::tensor("stress", &tensors)];
+    write_image(&folder.join("image.vti"), &grid, &columns)?;
     for (precision, end) in [(Precision::Double, "double"), (Precision::Single, "single")] {
         for format in FORMATS {
             let name = format!("{}_{end}", format.name.replace('-', "_"));
@@ -133,6 +141,11 @@ fn frame(time: f64) -> Frame {
         walls: PolyData {
             points: Vec::new(),
             columns: vec![("radius".to_owned(), Numbers::Scalar(Vec::new()))],
+        },
+        // A triangle that rises with time.
+        surfaces: PolyData {
+            points: vec![[0.0, 0.0, time], [1.0, 0.0, time], [0.0, 1.0, time]],
+            columns: vec![("wall".to_owned(), Numbers::Integer(vec![2]))],
         },
     }
 }

@@ -8,7 +8,7 @@
 //! | [`vtk`] | particles and contacts, one frame per instant, and the index of a run | ParaView, VTK, pyvista, OVITO |
 //! | [`frames`] | instants of a run as VTK, LAMMPS dumps, extended XYZ, npz or CSV | OVITO, LAMMPS, NumPy, pandas |
 //! | [`table`] | tables as aligned text, CSV or JSON; time series while a run goes on | people, spreadsheets, scripts |
-//! | [`plot`] | charts of curves as PNG or SVG | people |
+//! | [`plot`] | charts of curves as PNG or SVG, or as text | people |
 //! | [`report`] | sections of pictures and tables as one HTML page, and as Markdown | people |
 //! | [`picture`] | packings of spheres as PNG | people |
 //! | [`checkpoint`] | the state of a run, with a checksum | Pulvis; the header: people |

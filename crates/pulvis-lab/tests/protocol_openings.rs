@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use protocol_scenarios::{Series, options, run, run_with, scenario};
 use pulvis_input::scenario::Scenario;
-use pulvis_lab::protocol::{Ending, RunError, Session, load_scenario, prepare, resume};
+use pulvis_lab::protocol::{Ending, RunError, RunPhase, Session, load_scenario, prepare, resume, run_status};
 
 /// A stream that falls through a box without floor, with an outlet below.
 const STREAM: &str = r#"
@@ -65,7 +65,7 @@ fn changed(changes: &[(&str, &str)]) -> String {
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
-    let files = entries.filter(|path| name(path) != ".pulvis-lock");
+    let files = entries.filter(|path| ![".pulvis-lock", "status.json"].contains(&&*name(path)));
     files.map(|path| (name(&path), fs::read(&path).unwrap())).collect()
 }
 
@@ -291,6 +291,7 @@ fn an_inlet_without_room_stops_the_run_and_says_so() {
         ("size_classes = [\"0.4 mm\"]\n\n[[out", "max_delay = \"2 ms\"\n\n[[out"),
         ("\"20000 1/s\"", "\"40000 1/s\""),
         ("\"20 ms\"", "\"60 ms\""),
+        ("vtk = false", "vtk = true"),
     ]);
     let folder = tempfile::tempdir().unwrap();
     let stopped = run_with(&scenario(&text), &options(folder.path()), &AtomicBool::new(false), &mut |_| {});
@@ -302,11 +303,25 @@ fn an_inlet_without_room_stops_the_run_and_says_so() {
         "{text}"
     );
     assert!(
-        text.contains("longer than `max_delay` = 2.0000e-3 s") && text.ends_with("or raise `max_delay`"),
+        text.contains("longer than `max_delay` = 2.0000e-3 s")
+            && text.contains("or raise `max_delay`\n  the run has stopped; "),
         "{text}"
     );
-    // The rows up to there are complete.
-    assert!(Series::read(folder.path()).rows.len() > 2);
+    // The rows up to there are complete, and the last one and the last frame are of the state that it stopped in.
+    let series = Series::read(folder.path());
+    let (steps, times) = (series.column("step"), series.column("time"));
+    assert!(steps.len() > 2);
+    let index = fs::read_to_string(folder.path().join("series.pvd")).unwrap();
+    let frames: Vec<f64> = index
+        .split("timestep=\"")
+        .skip(1)
+        .map(|rest| rest.split('"').next().unwrap().parse().unwrap())
+        .collect();
+    assert_eq!((frames.len(), frames.last()), (2, times.last()));
+    let status = run_status(folder.path()).unwrap();
+    assert_eq!((status.state, status.message), (RunPhase::Failed, Some(text)));
+    let alarm = fs::read_to_string(folder.path().join("alarm.txt")).unwrap();
+    assert!(alarm.contains(&format!("\nstep = {}\n", steps.last().unwrap())), "{alarm}");
 }
 
 fn refusal(changes: &[(&str, &str)]) -> String {

@@ -1,21 +1,27 @@
 //! One file a command; the list is here.
 
 mod allow;
+mod analyze;
 mod check;
 mod collide;
+mod completions;
 mod explain;
 mod info;
 mod laws;
 mod machine;
+mod man;
 mod new;
 mod picture_file;
+mod plot;
 mod probe;
 mod progress;
 mod regime;
 mod render;
 mod reproduce;
 mod run;
+mod schema;
 mod set;
+mod status;
 mod study;
 mod study_progress;
 mod verify;
@@ -36,8 +42,14 @@ pub enum Command {
     Check(check::Arguments),
     /// Runs the stages of a scenario
     Run(run::Arguments),
+    /// Says how far a run has come, from another shell
+    Status(status::Arguments),
+    /// Draws columns of a run's time series over time, in the terminal or as a picture
+    Plot(plot::Arguments),
     /// Draws the particles of a run, with or without their contacts, as pictures or as a film
     Render(render::Arguments),
+    /// Spreads particles and contacts of a run over a grid: density, velocity, stress, fabric
+    Analyze(analyze::Arguments),
     /// Says what checkpoints of runs hold, and whether they are whole
     Info(info::Arguments),
     /// Says what stopped a run, and what it was like before
@@ -54,6 +66,12 @@ pub enum Command {
     Reproduce(reproduce::Arguments),
     /// Checks contact laws against closed forms, published numbers and values of another program
     Verify(verify::Arguments),
+    /// Prints the JSON schema of a kind of file, for completion and hover texts in editors
+    Schema(schema::Arguments),
+    /// Prints the completions of a shell
+    Completions(completions::Arguments),
+    /// Prints the manual page of the program, or of a command
+    Man(man::Arguments),
 }
 
 impl Command {
@@ -64,6 +82,7 @@ impl Command {
             Self::Check(arguments) => check::execute(arguments),
             Self::Run(arguments) => run::execute(arguments),
             Self::Render(arguments) => render::execute(arguments),
+            Self::Analyze(arguments) => analyze::execute(arguments),
             Self::Info(arguments) => info::execute(arguments),
             Self::Explain(arguments) => explain::execute(arguments),
             Self::Collide(arguments) => collide::execute(arguments),
@@ -72,6 +91,11 @@ impl Command {
             Self::Study(arguments) => study::execute(arguments),
             Self::Reproduce(arguments) => reproduce::execute(arguments),
             Self::Verify(arguments) => verify::execute(arguments),
+            Self::Status(arguments) => status::execute(arguments),
+            Self::Plot(arguments) => plot::execute(arguments),
+            Self::Schema(arguments) => schema::execute(arguments),
+            Self::Completions(arguments) => completions::execute(arguments),
+            Self::Man(arguments) => man::execute(arguments),
         }
     }
 }

@@ -4,24 +4,37 @@
 use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
 
+use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
-use pulvis_lab::protocol::Progress;
+use pulvis_lab::protocol::{Progress, ProgressRecord};
 
 use super::words::duration;
 
-/// How often a run says how far it has come where there is no terminal.
-const EVERY: Duration = Duration::from_secs(30);
+/// How a run says how far it has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Style {
+    /// A line that is written over in a terminal, else lines
+    Auto,
+    /// A line of text now and then
+    Lines,
+    /// A line of JSON now and then
+    Json,
+    /// Nothing
+    None,
+}
 
 /// The progress of a run on the standard error stream.
 pub struct ProgressLine {
     bar: Option<ProgressBar>,
-    quiet: bool,
+    style: Style,
     rhythm: Rhythm,
 }
 
 impl ProgressLine {
-    pub fn new(quiet: bool) -> Self {
-        let bar = (!quiet && std::io::stderr().is_terminal()).then(|| {
+    /// `every`: time between two lines.
+    pub fn new(style: Style, every: Duration) -> Self {
+        let in_place = style == Style::Auto && std::io::stderr().is_terminal();
+        let bar = in_place.then(|| {
             let bar = ProgressBar::new(1000);
             // The template is a constant; without it the bar shows less.
             if let Ok(style) = ProgressStyle::with_template("{bar:20} {msg}") {
@@ -29,7 +42,7 @@ impl ProgressLine {
             }
             bar
         });
-        Self { bar, quiet, rhythm: Rhythm::new(EVERY, Instant::now()) }
+        Self { bar, style, rhythm: Rhythm::new(every, Instant::now()) }
     }
 
     pub fn show(&mut self, progress: &Progress) {
@@ -40,9 +53,13 @@ impl ProgressLine {
                 bar.set_position((1000.0 * progress.fraction.unwrap_or(0.0)) as u64);
                 bar.set_message(describe(progress));
             }
-            None if !self.quiet && self.rhythm.is_due(has_ended, Instant::now()) => {
+            None if self.style != Style::None && self.rhythm.is_due(has_ended, Instant::now()) => {
+                let line = match self.style {
+                    Style::Json => ProgressRecord::new(progress).to_json(),
+                    _ => describe(progress),
+                };
                 // Nobody is left to be told if the standard error stream is closed.
-                let _ = writeln!(std::io::stderr(), "{}", describe(progress));
+                let _ = writeln!(std::io::stderr(), "{line}");
             }
             None => {}
         }
@@ -96,7 +113,7 @@ mod tests {
     #[test]
     fn a_log_file_gets_a_line_each_half_minute_and_at_the_end_of_each_stage() {
         let start = Instant::now();
-        let mut rhythm = Rhythm::new(EVERY, start);
+        let mut rhythm = Rhythm::new(Duration::from_secs(30), start);
         // Five calls a second over two minutes, one of which tells the end of a stage.
         let said: Vec<u64> = (1..=600)
             .filter(|&call| rhythm.is_due(call == 200, start + call * Duration::from_millis(200)))

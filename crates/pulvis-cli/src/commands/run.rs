@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use clap::Args;
 use pulvis_core::InstructionSet;
@@ -15,7 +16,7 @@ use pulvis_lab::protocol::{
 
 use super::allow::Allowed;
 use super::picture_file::Resolution;
-use super::progress::ProgressLine;
+use super::progress::{ProgressLine, Style};
 use super::set::Settings;
 use super::words::duration;
 use crate::failure::{Failure, INTERRUPTED, print};
@@ -50,8 +51,14 @@ pub struct Arguments {
     /// Write plots as SVG beside PNG
     #[arg(long)]
     svg: bool,
-    /// No progress line
-    #[arg(short, long)]
+    /// How progress is told on the standard error stream
+    #[arg(long, value_enum, value_name = "STYLE", default_value = "auto")]
+    progress: Style,
+    /// Seconds between two lines of progress; the end of each stage is always told
+    #[arg(long, value_name = "SECONDS", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..))]
+    progress_interval: u32,
+    /// No progress: as `--progress none`
+    #[arg(short, long, conflicts_with = "progress")]
     quiet: bool,
 }
 
@@ -91,7 +98,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         pictures: PictureOptions { dpi: arguments.resolution.dpi, svg: arguments.svg },
         warn,
     };
-    let mut line = ProgressLine::new(arguments.quiet);
+    let style = if arguments.quiet { Style::None } else { arguments.progress };
+    let mut line = ProgressLine::new(style, Duration::from_secs(arguments.progress_interval.into()));
     let mut watch = |progress: &Progress| line.show(progress);
     let result = match (&scenario, &arguments.resume) {
         (Some(scenario), _) => run(scenario, &options, &stop, &mut watch),

@@ -13,3 +13,4 @@ mod resume;
 mod run;
 mod start;
 mod study;
+mod watch;

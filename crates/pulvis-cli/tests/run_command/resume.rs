@@ -64,7 +64,7 @@ dimensionless = { length = "2 mm", stiffness = "500 N/m", reference_stage = "pre
 /// All files of a run but the lock.
 pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    let files = names.filter(|name| name != ".pulvis-lock");
+    let files = names.filter(|name| ![".pulvis-lock", "status.json"].contains(&name.as_str()));
     files.map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
 }
 

@@ -132,6 +132,12 @@ impl Wall {
         lines.into_iter().map(|line| line.map(|end| self.point + turned.forwards(end))).collect()
     }
 
+    /// Triangles of its shape, where they are now \[m\].
+    pub fn place_triangles(&self, triangles: impl Iterator<Item = [Vector3; 3]>) -> Vec<[Vector3; 3]> {
+        let turned = Turned::of(self);
+        triangles.map(|corners| corners.map(|corner| self.point + turned.forwards(corner))).collect()
+    }
+
     /// Position of a plane along its normal [m]; other shapes have none.
     pub fn offset(&self) -> Option<f64> {
         self.plane_normal().map(|normal| self.point.dot(normal))

@@ -138,8 +138,8 @@ pub enum Value {
 }
 
 impl Value {
-    /// Names in a figure's file.
-    const NAMED: [(&'static str, Self); 16] = [
+    /// All of them, with their names.
+    pub const NAMED: [(&'static str, Self); 16] = [
         ("first", Self::First),
         ("last", Self::Last),
         ("minimum", Self::Minimum),

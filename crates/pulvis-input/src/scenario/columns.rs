@@ -19,6 +19,12 @@ pub struct ParticleColumn {
     pub dimension: Dimension,
 }
 
+/// Names that some format of output files has for its own columns and arrays, beside those that begin with `contact_`.
+const NAMES_OF_FORMATS: [&str; 26] = [
+    "x", "y", "z", "vx", "vy", "vz", "omegax", "omegay", "omegaz", "fx", "fy", "fz", "tqx", "tqy", "tqz",
+    "position", "pos", "species", "material", "velo", "forces", "time", "step", "box", "tilt", "periodic",
+];
+
 /// Reads `[particles.columns]`, in the order of the file. All groups have the same quantities: those of the `first`
 /// one, unless this is it.
 pub(super) fn read_columns(
@@ -85,7 +91,7 @@ fn read_column(table: &mut TableReader<'_>, name: &str) -> Result<ParticleColumn
         let found = format!("\"{name}\" is no name of a column");
         return Err(table.refuse(name, Problem::rule(found, "only letters, digits and underscores")));
     }
-    if PARTICLE_FIELDS.contains(&name) {
+    if PARTICLE_FIELDS.contains(&name) || NAMES_OF_FORMATS.contains(&name) || name.starts_with("contact_") {
         let found = format!("output files have a column `{name}` already");
         return Err(table.refuse(name, Problem::rule(found, "another name")));
     }

@@ -153,7 +153,7 @@ fn read_block(
 ) -> Result<OutputFiles, Reported> {
     let format = table.required("format", Choice(&FileFormat::ALL));
     let name = table.or("name", Text, DEFAULT_NAME.to_owned());
-    let name = name.and_then(|name| check_name(&table, name, before));
+    let name = name.and_then(|name| check_name(&table, name, format.as_ref().ok().copied(), before));
     let every = read_either(&mut table);
     let own = sample.columns.unwrap_or_default();
     let known: Vec<&str> = PARTICLE_FIELDS.into_iter().chain(own.iter().map(String::as_str)).collect();
@@ -178,7 +178,30 @@ fn read_block(
     })
 }
 
-fn check_name(table: &TableReader<'_>, name: String, before: &[OutputFiles]) -> Result<String, Reported> {
+/// Longest name of a block: file systems take names of 255 bytes, and numbers and endings follow it.
+const LONGEST_NAME: usize = 100;
+
+fn check_name(
+    table: &TableReader<'_>,
+    name: String,
+    format: Option<FileFormat>,
+    before: &[OutputFiles],
+) -> Result<String, Reported> {
+    if name.len() > LONGEST_NAME {
+        let found = format!("a name of {} letters", name.len());
+        return Err(table.refuse("name", Problem::rule(found, format!("at most {LONGEST_NAME} letters"))));
+    }
+    // `NAME_contacts_0000.csv` holds the contacts of a block, or the particles of one with this longer name.
+    let mut tables =
+        before.iter().filter(|files| files.format == FileFormat::Csv && format == Some(FileFormat::Csv));
+    let is_taken = |one: &str, other: &str| one.eq_ignore_ascii_case(&format!("{other}_contacts"));
+    if let Some(files) = tables.find(|files| is_taken(&files.name, &name) || is_taken(&name, &files.name)) {
+        let found = format!(
+            "the files of contacts and particles of this block and of {:?} have the same names",
+            files.name
+        );
+        return Err(table.refuse("name", Problem::rule(found, "another name for each block")));
+    }
     if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
         let found = format!("{name:?} is no beginning of a file name");
         return Err(table.refuse("name", Problem::rule(found, "only letters, digits and underscores")));

@@ -107,10 +107,15 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         openings.as_ref().map_or(Ok(()), |openings| openings.check_observers(&root, &observers))?;
         Ok(observers)
     });
-    let columns: Option<Vec<String>> = groups.as_ref().ok().map(|groups| {
-        let first = groups.first().map(|(group, _)| &group.columns[..]).unwrap_or_default();
-        first.iter().map(|column| column.name.clone()).collect()
-    });
+    let columns = match (&groups, &openings) {
+        (Ok(groups), Ok(openings)) => {
+            // All groups and inlets have the same; where there is neither, particles come from another run.
+            let group = groups.first().map(|(group, _)| &group.columns[..]);
+            let first = group.or_else(|| openings.inlets.first().map(|(inlet, _)| &inlet.columns[..]));
+            first.map(|columns| columns.iter().map(|column| column.name.clone()).collect::<Vec<_>>())
+        }
+        _ => None,
+    };
     let sample = Sample { domain: known, enclosure, columns: columns.as_deref() };
     let output = read_output(&mut root, file, &sample, names.as_deref());
     let bodies = walls.and_then(|walls| {

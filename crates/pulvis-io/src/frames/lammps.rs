@@ -41,7 +41,7 @@ impl Dump {
 }
 
 impl FrameWriter for Dump {
-    fn next_files(&self) -> Vec<String> {
+    fn next_files(&self, _instant: &Instant<'_>) -> Vec<String> {
         self.growing()
     }
 

@@ -106,8 +106,8 @@ pub struct Bounds {
 
 /// Writes instants.
 pub trait FrameWriter: Debug + Send {
-    /// Names of the files that the next instant will write.
-    fn next_files(&self) -> Vec<String>;
+    /// Names of the files that this instant, the next one, will write.
+    fn next_files(&self, instant: &Instant<'_>) -> Vec<String>;
 
     /// Names of the files that every instant changes.
     fn growing(&self) -> Vec<String>;

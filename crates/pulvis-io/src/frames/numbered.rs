@@ -39,7 +39,7 @@ impl Numbered {
 }
 
 impl FrameWriter for Numbered {
-    fn next_files(&self) -> Vec<String> {
+    fn next_files(&self, _instant: &Instant<'_>) -> Vec<String> {
         (self.names)(&self.name, self.frames)
     }
 
@@ -48,7 +48,8 @@ impl FrameWriter for Numbered {
     }
 
     fn write(&mut self, instant: &Instant<'_>) -> Result<(), IoError> {
-        let paths: Vec<PathBuf> = self.next_files().iter().map(|name| self.folder.join(name)).collect();
+        let paths: Vec<PathBuf> =
+            self.next_files(instant).iter().map(|name| self.folder.join(name)).collect();
         (self.write)(&paths, instant, self.precision)?;
         self.frames += 1;
         Ok(())

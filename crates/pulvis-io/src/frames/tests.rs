@@ -34,6 +34,7 @@ fn frame(number: usize) -> Frame {
             points: Vec::new(),
             columns: vec![("radius".to_owned(), Numbers::Scalar(Vec::new()))],
         },
+        surfaces: PolyData::default(),
     }
 }
 

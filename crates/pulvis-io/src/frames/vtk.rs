@@ -17,8 +17,10 @@ pub(super) const FORMAT: Format = Format {
 };
 
 impl FrameWriter for SeriesWriter {
-    fn next_files(&self) -> Vec<String> {
-        SeriesWriter::next_files(self).into()
+    fn next_files(&self, instant: &Instant<'_>) -> Vec<String> {
+        let [particles, contacts, walls, surfaces, frame, index] = SeriesWriter::next_files(self);
+        let surfaces = self.has_moved(&instant.frame.surfaces).then_some(surfaces);
+        [particles, contacts, walls].into_iter().chain(surfaces).chain([frame, index]).collect()
     }
 
     fn growing(&self) -> Vec<String> {

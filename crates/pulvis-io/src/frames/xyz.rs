@@ -35,7 +35,7 @@ impl Xyz {
 }
 
 impl FrameWriter for Xyz {
-    fn next_files(&self) -> Vec<String> {
+    fn next_files(&self, _instant: &Instant<'_>) -> Vec<String> {
         self.growing()
     }
 

@@ -1,4 +1,4 @@
-//! Charts of curves as PNG or SVG, meant to be good enough for a paper.
+//! Charts of curves as PNG or SVG, meant to be good enough for a paper, and as text in a terminal.
 //!
 //! A [`Chart`] is one pair of axes with any number of [`Series`]; a [`Figure`] stacks charts in one picture. Colours come
 //! from a palette that colour-blind readers can tell apart, and points of different series also differ in shape. Ranges
@@ -45,6 +45,7 @@ mod legend;
 mod placing;
 pub(crate) mod raster;
 pub(crate) mod script;
+mod terminal;
 mod text;
 pub(crate) mod unit;
 mod unlocated;

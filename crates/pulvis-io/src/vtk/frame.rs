@@ -103,6 +103,19 @@ pub struct WallFrame<'a> {
     pub radii: &'a [f64],
 }
 
+/// Writes triangles: `path` should end in `.vtp`. Three points in a row are one; columns have one value per triangle.
+pub(super) fn write_triangles(
+    path: &Path,
+    corners: &[[f64; 3]],
+    columns: &[Column<'_>],
+) -> Result<(), IoError> {
+    check(columns, corners.len() / 3, "triangles")?;
+    let coordinates = corners.as_flattened();
+    file::replace(path, |file| {
+        polydata::write(file, coordinates, Cells::Triangles, columns, Precision::Double)
+    })
+}
+
 /// Writes particles as points: `path` should end in `.vtp`.
 ///
 /// # Errors
@@ -154,7 +167,7 @@ pub fn write_walls(path: &Path, frame: &WallFrame<'_>) -> Result<(), IoError> {
 }
 
 /// Every column has one value per row and its own name.
-fn check(columns: &[Column<'_>], rows: usize, what: &'static str) -> Result<(), IoError> {
+pub(super) fn check(columns: &[Column<'_>], rows: usize, what: &'static str) -> Result<(), IoError> {
     let mut names = HashSet::new();
     for column in columns {
         if column.len() != rows {

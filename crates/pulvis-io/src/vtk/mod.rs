@@ -4,10 +4,11 @@
 //!
 //! ```text
 //! series.pvd             the index: time and file of every frame; open this one
-//! frame_0000.vtm         one instant: the blocks Particles, Contacts and Walls
+//! frame_0000.vtm         one instant: the blocks Particles, Contacts, Walls and Surfaces
 //! particles_0000.vtp     points with one array per column
 //! contacts_0000.vtp      lines between the centres in contact, with one array per column
 //! walls_0000.vtp         edges of walls, and axes of cylinders with their radius
+//! surfaces_0000.vtp      walls as triangles; written when a wall has moved, and named by all frames until the next
 //! ```
 //!
 //! The readers agree on one encoding only, which is therefore the one written here: inline base64 without compression,
@@ -53,6 +54,7 @@
 //! ```
 
 mod frame;
+mod image;
 mod index;
 mod polydata;
 mod read;
@@ -61,6 +63,7 @@ mod series;
 pub use frame::{
     Column, ContactFrame, ParticleFrame, Values, WallFrame, write_contacts, write_particles, write_walls,
 };
+pub use image::{ImageGrid, write_image};
 pub use index::{Entry, read_series};
 pub use read::{Frame, Numbers, PolyData, read_frame, read_frame_without_contacts, read_polydata};
 pub use series::SeriesWriter;

@@ -13,6 +13,8 @@ pub(crate) enum Cells {
     Vertices,
     /// Each pair of points in a row is a line; columns belong to the lines.
     Lines,
+    /// Three points in a row are a triangle; columns belong to the triangles.
+    Triangles,
 }
 
 /// Writes points (three coordinates each), the cells that join them, and the columns.
@@ -24,9 +26,10 @@ pub(crate) fn write(
     precision: Precision,
 ) -> io::Result<()> {
     let points = coordinates.len() / 3;
-    let (vertices, lines) = match cells {
-        Cells::Vertices => (points, 0),
-        Cells::Lines => (0, points / 2),
+    let [vertices, lines, triangles] = match cells {
+        Cells::Vertices => [points, 0, 0],
+        Cells::Lines => [0, points / 2, 0],
+        Cells::Triangles => [0, 0, points / 3],
     };
     writeln!(out, "<?xml version=\"1.0\"?>")?;
     writeln!(
@@ -37,7 +40,7 @@ pub(crate) fn write(
     writeln!(
         out,
         "<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{vertices}\" NumberOfLines=\"{lines}\" \
-         NumberOfStrips=\"0\" NumberOfPolys=\"0\">"
+         NumberOfStrips=\"0\" NumberOfPolys=\"{triangles}\">"
     )?;
     section(out, "Points", |out| floats(out, "Points", 3, coordinates, precision))?;
     let columns = |out: &mut _| columns.iter().try_for_each(|column| write_column(out, column, precision));
@@ -50,17 +53,29 @@ pub(crate) fn write(
             section(out, "CellData", columns)?;
             section(out, "Lines", |out| topology(out, points, 2))?;
         }
+        Cells::Triangles => {
+            section(out, "CellData", columns)?;
+            section(out, "Polys", |out| topology(out, points, 3))?;
+        }
     }
     writeln!(out, "</Piece>\n</PolyData>\n</VTKFile>")
 }
 
-fn section<W: Write>(out: &mut W, tag: &str, body: impl FnOnce(&mut W) -> io::Result<()>) -> io::Result<()> {
+pub(super) fn section<W: Write>(
+    out: &mut W,
+    tag: &str,
+    body: impl FnOnce(&mut W) -> io::Result<()>,
+) -> io::Result<()> {
     writeln!(out, "<{tag}>")?;
     body(out)?;
     writeln!(out, "</{tag}>")
 }
 
-fn write_column(out: &mut impl Write, column: &Column<'_>, precision: Precision) -> io::Result<()> {
+pub(super) fn write_column(
+    out: &mut impl Write,
+    column: &Column<'_>,
+    precision: Precision,
+) -> io::Result<()> {
     let name = column.name;
     match column.values {
         Values::Scalar(values) => floats(out, name, 1, values, precision),

@@ -23,9 +23,9 @@ pub enum Numbers {
 /// Points and named columns: a file, or what becomes one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolyData {
-    /// The points \[m\]: one per particle, two per line.
+    /// The points \[m\]: one per particle, two per line, three per triangle.
     pub points: Vec<[f64; 3]>,
-    /// Named columns, one value per particle or line.
+    /// Named columns, one value per particle, line or triangle.
     pub columns: Vec<(String, Numbers)>,
 }
 
@@ -36,8 +36,10 @@ pub struct Frame {
     pub particles: PolyData,
     /// The contacts.
     pub contacts: PolyData,
-    /// The walls; none in frames that older versions wrote.
+    /// The walls as lines; none in frames that older versions wrote.
     pub walls: PolyData,
+    /// The walls as triangles, three points each, with the number of the wall in the column `wall`.
+    pub surfaces: PolyData,
 }
 
 impl PolyData {
@@ -66,6 +68,11 @@ impl PolyData {
         columns.collect()
     }
 
+    /// The corners of each triangle.
+    pub fn triangles(&self) -> Vec<[[f64; 3]; 3]> {
+        self.points.as_chunks().0.to_vec()
+    }
+
     /// The ends of each line.
     pub fn lines(&self) -> Vec<[[f64; 3]; 2]> {
         self.points.as_chunks().0.to_vec()
@@ -91,7 +98,7 @@ pub fn read_frame(path: &Path) -> Result<Frame, IoError> {
     read(path, true)
 }
 
-/// Reads particles and walls of a frame, but no contacts, which are most of it.
+/// Reads particles and lines of walls of a frame, but no contacts, which are most of it, and no surfaces.
 ///
 /// # Errors
 /// A file cannot be read, or is not one that Pulvis wrote.
@@ -107,6 +114,7 @@ fn read(path: &Path, with_contacts: bool) -> Result<Frame, IoError> {
             "Particles" => &mut frame.particles,
             "Contacts" if with_contacts => &mut frame.contacts,
             "Walls" => &mut frame.walls,
+            "Surfaces" if with_contacts => &mut frame.surfaces,
             _ => continue,
         };
         *block = read_polydata(&folder.join(file))?;
@@ -123,6 +131,9 @@ pub fn read_polydata(path: &Path) -> Result<PolyData, IoError> {
     parse(&text).map_err(|problem| IoError::Frame { path: path.to_path_buf(), problem })
 }
 
+/// The parts of a file that hold arrays.
+const SECTIONS: [&str; 6] = ["<Points>", "<PointData>", "<CellData>", "<Verts>", "<Lines>", "<Polys>"];
+
 fn parse(text: &str) -> Result<PolyData, String> {
     let mut lines = text.lines();
     let mut data = PolyData::default();
@@ -132,13 +143,14 @@ fn parse(text: &str) -> Result<PolyData, String> {
             let count = |name| attribute(line, name).and_then(|text| text.parse::<usize>().ok());
             let counts = count("NumberOfPoints").zip(count("NumberOfLines"));
             let (points, lines) = counts.ok_or("its piece has no numbers of points and lines")?;
-            rows = Some((points, if lines > 0 || points == 0 { lines } else { points }));
-        } else if ["<Points>", "<PointData>", "<CellData>", "<Verts>", "<Lines>"].contains(&line) {
+            let cells = lines + count("NumberOfPolys").unwrap_or(0);
+            rows = Some((points, if cells > 0 || points == 0 { cells } else { points }));
+        } else if SECTIONS.contains(&line) {
             section = line;
         } else if line.starts_with("<DataArray ") {
             // An array ends on the line after its numbers; of those that join points nothing is needed.
             let body = lines.next().ok_or("it breaks off in an array")?;
-            if !matches!(section, "<Verts>" | "<Lines>") {
+            if !matches!(section, "<Verts>" | "<Lines>" | "<Polys>") {
                 let name = unescape(attribute(line, "Name").ok_or("an array has no name")?);
                 let numbers = numbers(line, body).map_err(|problem| format!("array `{name}` {problem}"))?;
                 data.columns.push((name, numbers));
@@ -236,7 +248,7 @@ mod tests {
     #[test]
     fn a_frame_is_read_as_it_was_written() {
         let (_folder, path) = folder();
-        let Frame { particles, contacts, walls } = read_frame(&path).unwrap();
+        let Frame { particles, contacts, walls, surfaces: _ } = read_frame(&path).unwrap();
         assert_eq!(particles.points, [[0.0, -0.0, 1.0e-300], [f64::INFINITY, 2.0, 0.1]]);
         assert_eq!(particles.scalar("id").unwrap(), [7.0, 3.0]);
         assert_eq!(particles.column("a<b"), Some(&Numbers::Scalar(vec![0.1, -2.5])));

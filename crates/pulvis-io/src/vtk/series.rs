@@ -1,10 +1,11 @@
 //! The frames of a run, numbered, with an index that is complete after every frame.
 
 use super::frame::{
-    ContactFrame, ParticleFrame, WallFrame, write_contacts_as, write_particles_as, write_walls,
+    ContactFrame, ParticleFrame, WallFrame, write_contacts_as, write_particles_as, write_triangles,
+    write_walls,
 };
-use super::index::{Entry, read_series, write_blocks, write_series};
-use super::read::Frame;
+use super::index::{Entry, read_blocks, read_series, write_blocks, write_series};
+use super::read::{Frame, PolyData, read_polydata};
 use crate::frames::Precision;
 use crate::{IoError, file};
 use std::path::{Path, PathBuf};
@@ -19,6 +20,8 @@ pub struct SeriesWriter {
     prefix: String,
     entries: Vec<Entry>,
     precision: Precision,
+    /// The last surfaces and their file, which later frames name as long as no wall moves.
+    surfaces: Option<(String, PolyData)>,
 }
 
 impl SeriesWriter {
@@ -33,7 +36,7 @@ impl SeriesWriter {
         let folder = folder.into();
         file::create_folder(&folder)?;
         let prefix = if prefix.is_empty() { String::new() } else { format!("{prefix}_") };
-        Ok(Self { folder, prefix, entries: Vec::new(), precision: Precision::Double })
+        Ok(Self { folder, prefix, entries: Vec::new(), precision: Precision::Double, surfaces: None })
     }
 
     /// Goes on with the series of an interrupted run: its first `frames` frames stay, later ones leave the index and are
@@ -54,6 +57,14 @@ impl SeriesWriter {
             return Err(IoError::Changed { path: index, problem });
         }
         series.entries.truncate(frames);
+        if let Some(last) = series.entries.last() {
+            let blocks = read_blocks(&series.folder.join(&last.file))?;
+            let surfaces = blocks.into_iter().find(|(name, _)| name == "Surfaces");
+            if let Some((_, file)) = surfaces {
+                let data = read_polydata(&series.folder.join(&file))?;
+                series.surfaces = Some((file, data));
+            }
+        }
         write_series(&index, &series.entries)?;
         Ok(series)
     }
@@ -80,7 +91,7 @@ impl SeriesWriter {
         if !time.is_finite() || time <= previous {
             return Err(IoError::FrameTime { time, previous });
         }
-        let [particle_file, contact_file, wall_file, frame_file, _] = self.next_files();
+        let [particle_file, contact_file, wall_file, _, frame_file, _] = self.next_files();
         write_particles_as(&self.folder.join(&particle_file), particles, self.precision)?;
         write_contacts_as(&self.folder.join(&contact_file), contacts, self.precision)?;
         write_walls(&self.folder.join(&wall_file), walls)?;
@@ -91,6 +102,7 @@ impl SeriesWriter {
         blocks.extend(
             lines.iter().filter(|(_, _, ends)| !ends.is_empty()).map(|&(name, file, _)| (name, file)),
         );
+        blocks.extend(self.surfaces.iter().map(|(file, _)| ("Surfaces", file.as_str())));
         write_blocks(&path, &blocks)?;
         self.entries.push(Entry { time, file: frame_file });
         write_series(&self.index(), &self.entries)?;
@@ -102,20 +114,41 @@ impl SeriesWriter {
     /// # Errors
     /// As of [`write`](Self::write).
     pub fn write_frame(&mut self, time: f64, frame: &Frame) -> Result<PathBuf, IoError> {
-        let Frame { particles, contacts, walls } = frame;
+        let Frame { particles, contacts, walls, surfaces } = frame;
+        self.write_surfaces(surfaces)?;
         let particles = ParticleFrame { positions: &particles.points, columns: &particles.borrowed() };
         let contacts = ContactFrame { ends: &contacts.lines(), columns: &contacts.borrowed() };
         let radii = walls.scalar("radius").unwrap_or_default();
         self.write(time, &particles, &contacts, &WallFrame { ends: &walls.lines(), radii: &radii })
     }
 
-    /// Names of the files that the next frame will write: particles, contacts, walls, frame, index.
-    pub fn next_files(&self) -> [String; 5] {
+    /// Whether there are surfaces that differ from those of the frame before.
+    pub(crate) fn has_moved(&self, surfaces: &PolyData) -> bool {
+        !surfaces.points.is_empty() && self.surfaces.as_ref().is_none_or(|(_, before)| before != surfaces)
+    }
+
+    /// Writes the surfaces of the next frame, unless they are those of the one before.
+    fn write_surfaces(&mut self, surfaces: &PolyData) -> Result<(), IoError> {
+        if surfaces.points.is_empty() {
+            self.surfaces = None;
+        } else if self.has_moved(surfaces) {
+            let [_, _, _, file, _, _] = self.next_files();
+            write_triangles(&self.folder.join(&file), &surfaces.points, &surfaces.borrowed())?;
+            self.surfaces = Some((file, surfaces.clone()));
+        }
+        Ok(())
+    }
+
+    /// Names of the files that the next frame will write: particles, contacts, walls, surfaces (if a wall has moved since the
+    /// frame before), frame, index.
+    pub fn next_files(&self) -> [String; 6] {
         let name = |kind: &str, ending: &str| {
             format!("{}{kind}_{number:04}.{ending}", self.prefix, number = self.entries.len())
         };
         let index = format!("{}series.pvd", self.prefix);
-        [name("particles", "vtp"), name("contacts", "vtp"), name("walls", "vtp"), name("frame", "vtm"), index]
+        let [particles, contacts, walls, surfaces] =
+            ["particles", "contacts", "walls", "surfaces"].map(|kind| name(kind, "vtp"));
+        [particles, contacts, walls, surfaces, name("frame", "vtm"), index]
     }
 
     /// Number of frames in the index.
@@ -138,7 +171,7 @@ impl SeriesWriter {
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
     use super::*;
-    use crate::vtk::index::read_blocks;
+    use crate::vtk::{Numbers, read_frame};
 
     const NO_PARTICLES: ParticleFrame<'static> = ParticleFrame { positions: &[], columns: &[] };
     const NO_CONTACTS: ContactFrame<'static> = ContactFrame { ends: &[], columns: &[] };
@@ -174,6 +207,37 @@ mod tests {
         let walls = WallFrame { ends: &[[[0.0; 3], [1.0; 3]]], radii: &[0.0] };
         let frame = series.write(1.0, &NO_PARTICLES, &NO_CONTACTS, &walls).unwrap();
         assert_eq!(named(&frame), ["Particles", "Walls"]);
+    }
+
+    /// A triangle of wall 0 at a height.
+    fn surface(height: f64) -> Frame {
+        let points = vec![[0.0, 0.0, height], [1.0, 0.0, height], [0.0, 1.0, height]];
+        let columns = vec![("wall".to_owned(), Numbers::Integer(vec![0]))];
+        Frame { surfaces: PolyData { points, columns }, ..Frame::default() }
+    }
+
+    #[test]
+    fn surfaces_are_written_when_walls_move_and_named_by_all_frames() {
+        let folder = tempfile::tempdir().unwrap();
+        let named = |frame: &Path| {
+            let blocks = read_blocks(frame).unwrap();
+            blocks.into_iter().find(|(name, _)| name == "Surfaces").map(|(_, file)| file)
+        };
+        let mut series = SeriesWriter::create(folder.path(), "").unwrap();
+        let mut files = Vec::new();
+        for (time, height) in [(0.0, 1.0), (1.0, 1.0), (2.0, 0.5)] {
+            let frame = series.write_frame(time, &surface(height)).unwrap();
+            assert_eq!(read_frame(&frame).unwrap().surfaces, surface(height).surfaces);
+            files.push(named(&frame));
+        }
+        let expected = [0, 0, 2].map(|number| Some(format!("surfaces_{number:04}.vtp")));
+        assert_eq!(files, expected);
+        // A resumed run knows which file the frame before has named.
+        let mut series = SeriesWriter::resume(folder.path(), "", 2).unwrap();
+        let frame = series.write_frame(2.0, &surface(1.0)).unwrap();
+        assert_eq!(named(&frame), expected[0]);
+        let frame = series.write_frame(3.0, &Frame::default()).unwrap();
+        assert_eq!(named(&frame), None);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Why a run cannot start, or failed.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use pulvis_core::{SetupError, StepError};
 use pulvis_input::{InputError, InputErrors};
@@ -82,6 +82,12 @@ pub enum PrepareError {
         /// The folder.
         folder: PathBuf,
     },
+    /// There is no run whose state could be told.
+    #[error("{} holds no run of Pulvis; name the output folder of a run", .folder.display())]
+    NoStatus {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// The run is complete.
     #[error("the run in {} has ended: there is nothing to resume; to go on from its end, write a scenario with `start_from`", .folder.display())]
     RunHasEnded {
@@ -117,12 +123,7 @@ pub enum RunError {
     #[error(transparent)]
     Prepare(#[from] PrepareError),
     /// What happened in a step cannot be right.
-    #[error(
-        "stage `{stage}`, {source}\n  likely cause: {cause}\n  the run has stopped; the files in {} are complete up to there{}; `pulvis explain {}` tells more",
-        .folder.display(),
-        .saved.map_or(String::new(), |step| format!("; its last checkpoint is of step {step}")),
-        .folder.display()
-    )]
+    #[error("stage `{stage}`, {source}\n  likely cause: {cause}{}", files_of(Some(.folder), *.saved))]
     Step {
         /// The stage.
         stage: String,
@@ -146,12 +147,16 @@ pub enum RunError {
         cause: String,
     },
     /// An inlet could not bring in what it should.
-    #[error("stage `{stage}`: {source}")]
+    #[error("stage `{stage}`: {source}{}", files_of(.folder.as_deref(), *.saved))]
     Inlet {
         /// The stage.
         stage: String,
         /// Why.
         source: Box<InletError>,
+        /// The output folder; a session has none.
+        folder: Option<PathBuf>,
+        /// The step of the last checkpoint, if there is one.
+        saved: Option<u64>,
     },
     /// A session is asked to go on after it has failed.
     #[error(
@@ -182,9 +187,28 @@ pub enum RunError {
     },
 }
 
+/// What is left of a run that has stopped.
+fn files_of(folder: Option<&Path>, saved: Option<u64>) -> String {
+    let Some(folder) = folder.map(Path::display) else { return String::new() };
+    let saved = saved.map_or(String::new(), |step| format!("; its last checkpoint is of step {step}"));
+    format!(
+        "\n  the run has stopped; the files in {folder} are complete up to there{saved}; `pulvis explain {folder}` tells more"
+    )
+}
+
 impl RunError {
     pub(super) fn inlet(stage: &str, source: InletError) -> Self {
-        Self::Inlet { stage: stage.to_owned(), source: Box::new(source) }
+        Self::Inlet { stage: stage.to_owned(), source: Box::new(source), folder: None, saved: None }
+    }
+
+    /// The same of a run with files in a folder.
+    pub(super) fn with_folder(self, of_run: &Path) -> Self {
+        match self {
+            Self::Inlet { stage, source, folder: _, saved } => {
+                Self::Inlet { stage, source, folder: Some(of_run.to_owned()), saved }
+            }
+            other => other,
+        }
     }
 
     /// Whether the input is to blame, and nothing was computed yet.

@@ -12,7 +12,7 @@ use super::snapshots::{Plan, plans};
 use super::under_way::TIME_SERIES;
 
 /// The file.
-pub(super) const FIELDS: &str = "fields.json";
+pub(crate) const FIELDS: &str = "fields.json";
 
 /// Name, meaning, unit in SI.
 type Description = (&'static str, &'static str, &'static str);
@@ -89,6 +89,14 @@ const SERIES_STEMS: &[Description] = &[
     ("position_", "position of a plane along its normal", "m"),
     ("force_", "force of the particles on a wall; on a plane against its normal, compression positive", "N"),
     ("torque_", "torque of the particles on a wall about its axis", "N m"),
+    ("number_", "particles that have passed an inlet or outlet so far", "1"),
+    ("mass_", "mass that has passed an inlet or outlet so far", "kg"),
+    (
+        "flow_",
+        "mass that has passed an inlet or outlet since the start of the stage / time since then",
+        "kg/s",
+    ),
+    ("energy_", "kinetic energy that particles have carried through an inlet or outlet so far", "J"),
     ("D_", "(L - L0)/length scale", "1"),
     ("F_", "mean force on the two box walls/(stiffness scale x length scale)", "1"),
 ];
@@ -193,12 +201,15 @@ fn of_series(scenario: &Scenario, column: &str) -> Option<(String, &'static str)
 
 /// Name, meaning and unit of what is written of particles.
 fn of_particles(scenario: &Scenario, selection: &Selection<'_>) -> Vec<(String, String, String)> {
-    let own = scenario.particles.first().map(|group| &group.columns[..]).unwrap_or_default();
+    let group = scenario.particles.first().map(|group| &group.columns[..]);
+    let own = group.or_else(|| scenario.inlets.first().map(|inlet| &inlet.columns[..])).unwrap_or_default();
     let describe = |name: &str| {
         let known = PARTICLES.iter().find(|(known, ..)| *known == name);
         let (meaning, unit) = match (known, own.iter().find(|column| column.name == name)) {
             (Some((_, meaning, unit)), _) => (*meaning, (*unit).to_owned()),
-            (None, Some(column)) => ("column of [particles.columns]", column.dimension.unit()),
+            (None, Some(column)) => {
+                ("column of [particles.columns] or [inlets.columns]", column.dimension.unit())
+            }
             (None, None) => ("column of the run before", "SI".to_owned()),
         };
         (name.to_owned(), meaning.to_owned(), unit)
@@ -269,11 +280,12 @@ mod tests {
     use pulvis_input::scenario::{CONTACT_FIELDS, PARTICLE_FIELDS};
 
     /// Scenarios that have all columns among them.
-    const SCENARIOS: [&str; 4] = [
+    const SCENARIOS: [&str; 5] = [
         include_str!("../../tests/protocol_scenarios/tablet.toml"),
         include_str!("../../../pulvis-input/tests/good/bonds.toml"),
         include_str!("../../../pulvis-input/tests/good/cell.toml"),
         include_str!("../../../pulvis-input/tests/good/drum.toml"),
+        include_str!("../../../pulvis-input/tests/good/inlets.toml"),
     ];
 
     #[test]

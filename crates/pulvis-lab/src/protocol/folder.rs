@@ -20,6 +20,7 @@ use super::explain::ALARM;
 use super::fields::FIELDS;
 use super::lock::{LOCK, Lock, lock};
 use super::observers::is_histogram;
+use super::status::STATUS;
 
 /// The record of the files of a run.
 pub(super) const LIST: &str = "run.files";
@@ -236,7 +237,7 @@ fn may_be_written(name: &str) -> bool {
         let digits = number.len() >= 4 && number.bytes().all(|byte| byte.is_ascii_digit());
         Some(
             digits
-                && ["particles", "contacts", "walls", "frame"].contains(&kind)
+                && ["particles", "contacts", "walls", "surfaces", "frame"].contains(&kind)
                 && ["vtp", "vtm"].contains(&ending),
         )
     };
@@ -244,7 +245,8 @@ fn may_be_written(name: &str) -> bool {
         Some((name, "png" | "svg")) => ["energies", "stress", "force_displacement"].contains(&name),
         _ => false,
     };
-    let others = [RECORD, LIST, ALARM, AVERAGES, FIELDS, "timeseries.csv", "series.pvd", "particles.png"];
+    let others =
+        [RECORD, LIST, ALARM, AVERAGES, FIELDS, STATUS, "timeseries.csv", "series.pvd", "particles.png"];
     is_checkpoint(name)
         || is_histogram(name)
         || is_picture()

@@ -11,6 +11,7 @@ use pulvis_math::Vector3;
 use super::clusters::Graph;
 use super::outlines::walls;
 use super::particle_sums::ParticleSums;
+use super::surfaces::surfaces;
 
 /// What a frame holds.
 #[derive(Clone, Debug)]
@@ -118,6 +119,7 @@ pub(crate) fn selected_frame(
         particles: particles(simulation, &contacts, selection),
         contacts: contacts.into_lines(simulation, selection),
         walls: walls(scenario, simulation),
+        surfaces: surfaces(scenario, simulation),
     }
 }
 

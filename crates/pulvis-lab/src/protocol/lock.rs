@@ -3,6 +3,7 @@
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use super::error::PrepareError;
 
@@ -27,12 +28,40 @@ fn is_alive(process: &str) -> bool {
     other && Path::new("/proc").join(process).exists()
 }
 
+/// Whether a process holds the lock on a folder; `None` on a file system without locks.
+pub(crate) fn is_locked(folder: &Path) -> Option<bool> {
+    let Ok(file) = File::open(folder.join(LOCK)) else { return Some(false) };
+    // Released at the end; for this instant a run that begins would have to wait, see [`lock`].
+    match file.try_lock_shared() {
+        Ok(()) => Some(false),
+        Err(TryLockError::WouldBlock) => Some(true),
+        Err(TryLockError::Error(_)) => {
+            process_of(folder).filter(|process| is_alive(&process.to_string())).map(|_| true)
+        }
+    }
+}
+
+/// The number of the process that has locked a folder last.
+pub(crate) fn process_of(folder: &Path) -> Option<u32> {
+    fs::read_to_string(folder.join(LOCK)).ok()?.parse().ok()
+}
+
+/// Time after which a lock is tried for once more: somebody may just have asked whether there is one.
+const ONCE_MORE: Duration = Duration::from_millis(50);
+
 /// Locks a folder for this process. `None` on a file system without locks.
 pub(crate) fn lock(folder: &Path, wanted: Lock) -> Result<Option<File>, PrepareError> {
     let failed = |source| PrepareError::Folder { folder: PathBuf::from(folder), source };
     let path = folder.join(LOCK);
     let mut file = OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
-    match file.try_lock() {
+    let locked = file.try_lock().or_else(|error| match error {
+        TryLockError::WouldBlock => {
+            std::thread::sleep(ONCE_MORE);
+            file.try_lock()
+        }
+        error => Err(error),
+    });
+    match locked {
         Ok(()) => {
             // For the message of a run that comes while this one goes on.
             file.set_len(0).and_then(|()| write!(file, "{}", std::process::id())).map_err(failed)?;

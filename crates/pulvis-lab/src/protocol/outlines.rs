@@ -129,8 +129,8 @@ fn cylinders(scenario: &Scenario, simulation: &Simulation) -> Vec<OutlineCylinde
         .collect()
 }
 
-/// Where a cylinder begins and ends in the picture, along its axis from its reference point [m].
-fn ends(
+/// Where a cylinder begins and ends in files and pictures, along its axis from its reference point [m].
+pub(super) fn ends(
     scenario: &Scenario,
     simulation: &Simulation,
     cylinder: &Cylinder,

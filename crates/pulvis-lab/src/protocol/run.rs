@@ -68,6 +68,8 @@ pub struct Progress {
     pub time: f64,
     /// Steps done.
     pub steps: u64,
+    /// Particles that are there.
+    pub particles: usize,
     /// Time steps per second of wall-clock time.
     pub steps_per_second: f64,
     /// Progress of the stage from 0 to 1, where its duration is known.

@@ -184,11 +184,11 @@ impl Block<'_> {
         }
         self.last_step = Some(simulation.steps());
         let frame = selected_frame(scenario, simulation, &self.selection);
-        for name in self.writer.next_files() {
-            output.file(&name)?;
-        }
         let (time, step) = (simulation.time(), simulation.steps());
         let instant = Instant { time, step, bounds: bounds(scenario, simulation), materials, frame: &frame };
+        for name in self.writer.next_files(&instant) {
+            output.file(&name)?;
+        }
         Ok(self.writer.write(&instant)?)
     }
 }

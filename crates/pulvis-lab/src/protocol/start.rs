@@ -102,7 +102,7 @@ fn walls_in_stage(
 }
 
 /// The state in a checkpoint file as a frame, with its scenario and time [s].
-pub(crate) fn frame_of_checkpoint(file: &Path) -> Result<(Scenario, f64, Frame), PrepareError> {
+pub(crate) fn frame_of_checkpoint(file: &Path) -> Result<(Scenario, Domain, f64, Frame), PrepareError> {
     let found = find(file)?.ok_or_else(|| FindError::None(file.to_owned()))?;
     let checkpoint = found.checkpoint;
     let (scenario, stage) = parent(&checkpoint)?;
@@ -113,7 +113,7 @@ pub(crate) fn frame_of_checkpoint(file: &Path) -> Result<(Scenario, f64, Frame),
     let simulation =
         Simulation::import_state(models, walls, &state).map_err(|error| misfit(error.to_string()))?;
     let frame = frame_of(&scenario, &simulation);
-    Ok((scenario, simulation.time(), frame))
+    Ok((scenario, *simulation.domain(), simulation.time(), frame))
 }
 
 /// Walls go through the starts of stages. Where the stage before the first one goes on, so do motions that have an end.

@@ -28,7 +28,9 @@ use extent::Extent;
 use plan::Paints;
 pub use plan::{FrameChoice, Plan};
 pub use quantity::Quantity;
-use source::{Instant, Source};
+use source::Instant;
+pub(crate) use source::Source as FrameSource;
+use source::Source;
 pub use view::ViewPoint;
 
 /// Pictures that can be drawn.
@@ -58,22 +60,7 @@ impl Rendering {
     /// There are no such frames, or no such format.
     pub fn prepare(run: &Path, plan: Plan, output: Option<&Path>) -> Result<Self, RenderError> {
         let source = Source::open(run)?;
-        let mut instants = source.instants();
-        let count = instants.len();
-        let chosen = match plan.frames {
-            FrameChoice::All => instants,
-            FrameChoice::Last => instants.split_off(count - 1),
-            FrameChoice::Number(found) if found < count => instants.drain(found..=found).collect(),
-            FrameChoice::Time(time) => {
-                // Times went through text, and are sums of steps.
-                let is_it = |instant: &Instant| (instant.time - time).abs() <= 1e-9 * time.abs();
-                match instants.into_iter().find(is_it) {
-                    Some(instant) => vec![instant],
-                    None => return Err(RenderError::NoTime { time }),
-                }
-            }
-            FrameChoice::Number(found) => return Err(RenderError::NoFrame { found, count }),
-        };
+        let chosen = source.choose(plan.frames)?;
         let output = match output {
             None => {
                 let file = |instant: &Instant| source.folder.join(format!("render_{}.png", instant.name));

@@ -228,7 +228,7 @@ mod tests {
                 numbers("overlap", &[0.2, 0.2, 0.1]),
             ],
         };
-        Frame { particles, contacts, walls: PolyData::default() }
+        Frame { particles, contacts, walls: PolyData::default(), surfaces: PolyData::default() }
     }
 
     #[test]

@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use pulvis_boundary::Domain;
 use pulvis_input::scenario::Scenario;
 use pulvis_io::vtk::{Entry, Frame, read_frame, read_frame_without_contacts, read_series};
 
 use super::error::RenderError;
+use super::plan::FrameChoice;
 use crate::protocol::{RECORD, checkpoint_files, frame_of_checkpoint};
 
 /// The index of frames in the folder of a run.
@@ -13,27 +15,27 @@ const INDEX: &str = "series.pvd";
 
 /// The frames of a run.
 #[derive(Debug)]
-pub(super) struct Source {
+pub(crate) struct Source {
     /// What the run was, where its record can be read.
-    pub(super) scenario: Option<Scenario>,
+    pub(crate) scenario: Option<Scenario>,
     /// Where pictures go unless told otherwise.
-    pub(super) folder: PathBuf,
+    pub(crate) folder: PathBuf,
     frames: Frames,
 }
 
 #[derive(Debug)]
 enum Frames {
     Files(Vec<Entry>),
-    Checkpoint { name: String, time: f64, frame: Box<Frame> },
+    Checkpoint { name: String, time: f64, frame: Box<Frame>, domain: Box<Domain> },
 }
 
 /// One frame of a source.
 #[derive(Clone, Debug)]
-pub(super) struct Instant {
+pub(crate) struct Instant {
     /// What the picture of it is called.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// \[s\]
-    pub(super) time: f64,
+    pub(crate) time: f64,
     /// Its file, if it has one.
     file: Option<PathBuf>,
 }
@@ -41,7 +43,7 @@ pub(super) struct Instant {
 impl Source {
     /// # Errors
     /// There is no run, or one without frames, or a checkpoint that cannot be used.
-    pub(super) fn open(run: &Path) -> Result<Self, RenderError> {
+    pub(crate) fn open(run: &Path) -> Result<Self, RenderError> {
         if run.is_file() {
             return Self::of_checkpoint(run);
         }
@@ -65,22 +67,53 @@ impl Source {
     }
 
     fn of_checkpoint(file: &Path) -> Result<Self, RenderError> {
-        let (scenario, time, frame) = frame_of_checkpoint(file)?;
+        let (scenario, domain, time, frame) = frame_of_checkpoint(file)?;
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Self {
             scenario: Some(scenario),
             folder: file.parent().unwrap_or(Path::new("")).to_owned(),
-            frames: Frames::Checkpoint { name, time, frame: Box::new(frame) },
+            frames: Frames::Checkpoint { name, time, frame: Box::new(frame), domain: Box::new(domain) },
+        })
+    }
+
+    /// The periodic domain as it is in a checkpoint; files do not tell.
+    pub(crate) fn domain(&self) -> Option<Domain> {
+        match &self.frames {
+            Frames::Checkpoint { domain, .. } => Some(**domain),
+            Frames::Files(_) => None,
+        }
+    }
+
+    /// The frames that were asked for.
+    ///
+    /// # Errors
+    /// There are no such ones.
+    pub(crate) fn choose(&self, frames: FrameChoice) -> Result<Vec<Instant>, RenderError> {
+        let mut instants = self.instants();
+        let count = instants.len();
+        Ok(match frames {
+            FrameChoice::All => instants,
+            FrameChoice::Last => instants.split_off(count - 1),
+            FrameChoice::Number(found) if found < count => instants.drain(found..=found).collect(),
+            FrameChoice::Time(time) => {
+                // Times went through text, and are sums of steps.
+                let is_it = |instant: &Instant| (instant.time - time).abs() <= 1e-9 * time.abs();
+                match instants.into_iter().find(is_it) {
+                    Some(instant) => vec![instant],
+                    None => return Err(RenderError::NoTime { time }),
+                }
+            }
+            FrameChoice::Number(found) => return Err(RenderError::NoFrame { found, count }),
         })
     }
 
     /// Whether there are frames in files.
-    pub(super) fn is_run(&self) -> bool {
+    pub(crate) fn is_run(&self) -> bool {
         matches!(self.frames, Frames::Files(_))
     }
 
     /// All frames.
-    pub(super) fn instants(&self) -> Vec<Instant> {
+    pub(crate) fn instants(&self) -> Vec<Instant> {
         match &self.frames {
             Frames::Checkpoint { name, time, .. } => {
                 vec![Instant { name: name.clone(), time: *time, file: None }]
@@ -98,7 +131,7 @@ impl Source {
 
     /// # Errors
     /// A file cannot be read.
-    pub(super) fn read(&self, instant: &Instant, with_contacts: bool) -> Result<Frame, RenderError> {
+    pub(crate) fn read(&self, instant: &Instant, with_contacts: bool) -> Result<Frame, RenderError> {
         match (&self.frames, &instant.file) {
             (Frames::Checkpoint { frame, .. }, _) => Ok((**frame).clone()),
             (Frames::Files(_), Some(file)) => {

@@ -14,7 +14,7 @@ use super::{coarse, observed};
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
-    let files = entries.filter(|path| name(path) != ".pulvis-lock");
+    let files = entries.filter(|path| ![".pulvis-lock", "status.json"].contains(&&*name(path)));
     files.map(|path| (name(&path), fs::read(&path).unwrap())).collect()
 }
 

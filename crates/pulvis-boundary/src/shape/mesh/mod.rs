@@ -176,6 +176,11 @@ impl TriangleMesh {
         build::build(triangles)
     }
 
+    /// Its triangles, counted from the wall's reference point \[m\].
+    pub fn triangles(&self) -> impl Iterator<Item = [Vector3; 3]> + '_ {
+        self.facets.iter().map(|facet| facet.positions)
+    }
+
     /// Numbers of triangles, flat parts, straight edges and corners.
     pub fn counts(&self) -> [usize; 4] {
         [self.facets.len(), self.flats.len(), self.lines.len(), self.corners.len()]

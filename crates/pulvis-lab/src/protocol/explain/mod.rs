@@ -85,6 +85,12 @@ pub fn explain(folder: &Path) -> Result<Explanation, PrepareError> {
     Ok(Explanation { parts })
 }
 
+/// The message of the alarm that has stopped the run in a folder, if one has.
+pub(super) fn alarm_message(folder: &Path) -> Option<String> {
+    let alarm = AlarmReport::read(&folder.join(ALARM))?;
+    alarm.text.split("\n\n").next().map(str::to_owned)
+}
+
 /// The state of a checkpoint: the deepest contacts, and forces on particles.
 fn parts_of_state(
     found: Found,

@@ -32,8 +32,17 @@ impl AlarmReport {
             let deepest = simulation.first_deep_contact().map(|deep| deep.first);
             particles.extend(deepest.or_else(|| contacts(simulation).first().map(|contact| contact.first)));
         }
-        let text = format!("{message}\n\nAs it was then:\n\n{}", view(simulation, &particles));
-        Self { step: error.step, particles, text }
+        Self { step: error.step, ..Self::of_sound_state(simulation, &particles, message) }
+    }
+
+    /// The report of what has stopped a run between two steps, whose state is sound: an inlet without room.
+    pub(in crate::protocol) fn of_sound_state(
+        simulation: &Simulation,
+        particles: &[ParticleId],
+        message: &str,
+    ) -> Self {
+        let text = format!("{message}\n\nAs it was then:\n\n{}", view(simulation, particles));
+        Self { step: simulation.steps(), particles: particles.to_vec(), text }
     }
 
     /// The text of the file.

@@ -19,6 +19,7 @@ use crate::protocol::run::{PictureOptions, StageResult, drop_later};
 use crate::protocol::snapshots::Snapshots;
 use crate::protocol::stage::StageWatch;
 use crate::protocol::start::{Resumed, resumed};
+use crate::protocol::status::{STATUS, StatusFile};
 
 impl<'a> Run<'a> {
     /// Where a checkpoint has left off.
@@ -43,6 +44,7 @@ impl<'a> Run<'a> {
         // All that can be refused has been: from here on, files are cut back.
         drop_later(&file)?;
         output.cut_back(&record.files)?;
+        let status = StatusFile::begin(output.file(STATUS)?, version);
         let snapshots = Snapshots::resume(scenario, output.path(), &record.snapshots)?;
         let watch = record
             .watch
@@ -74,6 +76,7 @@ impl<'a> Run<'a> {
                 .map(|every| Due::resume(every, record.checkpoints_due)),
             keeper,
             pictures: PictureOptions::default(),
+            status,
             output,
             simulation,
         })
@@ -132,6 +135,7 @@ impl<'a> Run<'a> {
             checkpoints_due,
             keeper: _,
             pictures: _,
+            status: _,
         } = self;
         let series = writer.position()?;
         Ok(RunRecord {

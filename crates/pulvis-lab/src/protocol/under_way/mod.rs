@@ -28,12 +28,13 @@ use super::run::{PictureOptions, Progress, RunOptions, RunSummary, StageResult, 
 use super::setup::{Prepared, StagePlan};
 use super::snapshots::Snapshots;
 use super::stage::{Ending, StageWatch};
+use super::status::{RunPhase, STATUS, StatusFile};
 use super::switch::switch;
 
 /// The column of the relative closing error.
 const RELATIVE_ERROR: &str = "relative_error";
 
-pub(super) const TIME_SERIES: &str = "timeseries.csv";
+pub(crate) const TIME_SERIES: &str = "timeseries.csv";
 
 /// A run under way.
 pub(super) struct Run<'a> {
@@ -68,6 +69,8 @@ pub(super) struct Run<'a> {
     checkpoints_due: Option<Due>,
     keeper: Keeper,
     pictures: PictureOptions,
+    /// The sign of life for other processes.
+    status: StatusFile,
 }
 
 impl<'a> Run<'a> {
@@ -83,6 +86,7 @@ impl<'a> Run<'a> {
         let measure = Measure::new(scenario, &simulation);
         fields(scenario, measure.columns())?.write(&output.file(FIELDS)?)?;
         let writer = TimeSeriesWriter::create(&output.file(TIME_SERIES)?, measure.columns())?;
+        let status = StatusFile::begin(output.file(STATUS)?, version);
         let keeper = Keeper::new(scenario, output.path(), version);
         if keeper.plan().is_some() {
             output.file(LATEST)?;
@@ -112,6 +116,7 @@ impl<'a> Run<'a> {
             checkpoints_due: keeper.plan().and_then(|plan| plan.every).map(due),
             keeper,
             pictures: PictureOptions::default(),
+            status,
             simulation,
         };
         run.frame()?;
@@ -130,15 +135,18 @@ impl<'a> Run<'a> {
         machine.map_err(|source| RunError::Switch { stage, source })?;
         self.pictures = options.pictures;
         match self.stages(stop, watch).and_then(|interrupted| self.finish(interrupted)) {
-            Ok(summary) => Ok(summary),
+            Ok(summary) => {
+                let interrupted = summary.interrupted();
+                self.status.end(if interrupted { RunPhase::Interrupted } else { RunPhase::Complete }, None);
+                Ok(summary)
+            }
             Err(mut error) => {
                 let step = self.keeper.rescue();
-                if let RunError::Step { saved, .. } = &mut error {
+                if let RunError::Step { saved, .. } | RunError::Inlet { saved, .. } = &mut error {
                     *saved = step;
                 }
-                if let RunError::Step { source, .. } = &error {
-                    self.salvage(source, &error);
-                }
+                self.salvage(&error);
+                self.status.end(RunPhase::Failed, Some(error.to_string()));
                 Err(error)
             }
         }
@@ -192,7 +200,9 @@ impl<'a> Run<'a> {
             self.checkpoint(&rules, asked)?;
             if pace.is_due(self.simulation.steps()) {
                 let fraction = rules.progress(&self.simulation);
-                watch(&self.progress(number, &mut pace, fraction, None));
+                let progress = self.progress(number, &mut pace, fraction, None);
+                self.status.tell(&progress);
+                watch(&progress);
             }
         };
         self.row(number, &rules)?;
@@ -203,7 +213,9 @@ impl<'a> Run<'a> {
         if scenario.output.dimensionless.and_then(|scales| scales.reference_stage) == Some(number) {
             self.measure.take_reference(scenario, &self.simulation);
         }
-        watch(&self.progress(number, &mut pace, None, Some(ending)));
+        let progress = self.progress(number, &mut pace, None, Some(ending));
+        self.status.tell(&progress);
+        watch(&progress);
         let (time, steps) = (self.simulation.time(), self.simulation.steps());
         Ok(StageResult { name: stage.name.clone(), ending, time, steps })
     }
@@ -217,8 +229,11 @@ impl<'a> Run<'a> {
         let programs = (stage, &self.plans[number].programs[..]);
         let (models, present) = (&mut self.interactions, &mut self.update);
         update(&mut self.simulation, models, present, programs, rules.start_time())?;
-        let acted = self.openings.act(&mut self.simulation);
-        acted.map_err(|source| RunError::inlet(&stage.name, source))?;
+        if let Err(source) = self.openings.act(&mut self.simulation) {
+            // The state is sound, and the last that there is.
+            self.row(number, rules)?;
+            return Err(RunError::inlet(&stage.name, source).with_folder(self.output.path()));
+        }
         if self.rows_due.now(&self.simulation) {
             self.row(number, rules)?;
         }
@@ -298,6 +313,7 @@ impl<'a> Run<'a> {
             stages: self.scenario.stages.len(),
             time: self.simulation.time(),
             steps: self.simulation.steps(),
+            particles: self.simulation.particles().len(),
             steps_per_second,
             fraction,
             remaining,
@@ -308,9 +324,14 @@ impl<'a> Run<'a> {
 
     /// Completes the files of a run that has failed, and shows the state in which it did, as far as that is possible:
     /// what failed is the error that counts.
-    fn salvage(&mut self, alarm: &StepError, error: &RunError) {
-        let report = AlarmReport::new(&self.simulation, alarm, &error.to_string()).to_text();
-        let _ = self.output.file(ALARM).map(|file| write_text(&file, &report));
+    fn salvage(&mut self, error: &RunError) {
+        let (simulation, message) = (&self.simulation, error.to_string());
+        let report = match error {
+            RunError::Step { source, .. } => AlarmReport::new(simulation, source, &message),
+            RunError::Inlet { .. } => AlarmReport::of_sound_state(simulation, &[], &message),
+            _ => return,
+        };
+        let _ = self.output.file(ALARM).map(|file| write_text(&file, &report.to_text()));
         let _ = self.frame();
         let _ = self.writer.flush();
         let _ = self.draw();
