@@ -4,6 +4,7 @@ mod allow;
 mod check;
 mod collide;
 mod explain;
+mod export;
 mod info;
 mod laws;
 mod machine;
@@ -19,6 +20,7 @@ mod set;
 mod study;
 mod study_progress;
 mod verify;
+mod view;
 mod words;
 
 use std::process::ExitCode;
@@ -38,6 +40,10 @@ pub enum Command {
     Run(run::Arguments),
     /// Draws the particles of a run, with or without their contacts, as pictures or as a film
     Render(render::Arguments),
+    /// Opens a laboratory of contact laws, and a run, in the browser
+    View(view::Arguments),
+    /// Writes a run as one HTML file that shows it without a server
+    Export(export::Arguments),
     /// Says what checkpoints of runs hold, and whether they are whole
     Info(info::Arguments),
     /// Says what stopped a run, and what it was like before
@@ -64,6 +70,8 @@ impl Command {
             Self::Check(arguments) => check::execute(arguments),
             Self::Run(arguments) => run::execute(arguments),
             Self::Render(arguments) => render::execute(arguments),
+            Self::View(arguments) => view::execute(arguments),
+            Self::Export(arguments) => export::execute(arguments),
             Self::Info(arguments) => info::execute(arguments),
             Self::Explain(arguments) => explain::execute(arguments),
             Self::Collide(arguments) => collide::execute(arguments),
