@@ -1,34 +1,18 @@
 // The laboratory: sliders on one side, what the contact does on the other. All numbers come from `source`, which computes them
 // as `pulvis collide` and `pulvis probe` do.
 
-import { button, choice, Quantity, tick } from "./controls.js";
 import { Chart } from "./chart.js";
-import { download, element, number, packed, quantity } from "./format.js";
-import { collideText, courseText, MOTIONS, pathOf, probeText, quantities, ROLES } from "./scenario.js";
-
-const LETTERS = ["A", "B"];
-const TITLES = {
-  normal: "Normal force",
-  noncontact: "Attraction at a distance",
-  viscosity: "Dashpot",
-  sliding: "Sliding",
-  rolling: "Rolling",
-  torsion: "Torsion",
-  bond: "Bond",
-};
-
-/** Roles that are shown at once; the others are folded away. */
-const FIRST = ["normal", "noncontact", "viscosity"];
+import { element, number, packed, quantity } from "./format.js";
+import { LETTERS, MOTION_LABELS, Panel } from "./panel.js";
+import { collideText, MOTIONS, pathOf, probeText } from "./scenario.js";
 
 /** How long hands must rest before limits of sticking are searched [ms]. */
 const REST = 150;
 
-const MOTION_LABELS = { overlap: "along the normal", shear: "shear", roll: "roll", twist: "twist" };
-
 export class Laboratory {
   constructor(source) {
     this.source = source;
-    this.side = element("div", { class: "side", role: "group", "aria-label": "Contact" });
+    this.panel = new Panel(this);
     this.results = element("div", { class: "results", role: "status" });
     this.message = element("div", { class: "message", role: "alert", hidden: true });
     const restitution = new Chart({
@@ -42,8 +26,7 @@ export class Laboratory {
     const path = new Chart({ title: "Force over overlap on a path", x: { label: "overlap δ", unit: "m" }, y: { label: "force f", unit: "N", include: [0] } });
     this.charts = { loop, restitution, energies, path };
     const charts = element("div", { class: "charts" }, ...Object.values(this.charts).map((chart) => chart.root));
-    this.root = element("section", { class: "laboratory", id: "laboratory" }, this.side, element("div", { class: "stage" }, this.results, this.message, charts));
-    this.edited = 0;
+    this.root = element("section", { class: "laboratory", id: "laboratory" }, this.panel.root, element("div", { class: "stage" }, this.results, this.message, charts));
     this.pending = { dirty: false, busy: false };
   }
 
@@ -51,7 +34,7 @@ export class Laboratory {
     [this.laws, this.presets] = await Promise.all([this.source.laws(), this.source.presets()]);
     if (saved) {
       this.state = saved;
-      this.build();
+      this.panel.build();
       this.changed();
       return;
     }
@@ -81,8 +64,8 @@ export class Laboratory {
       const contacts = state.contacts.slice(0, 2);
       this.state = { ...state, contacts, speeds, motion, title, compare: contacts.length > 1, method: "exact" };
       this.state.velocity = Math.min(Math.max(0.34 * scale, speeds[0]), speeds[1]);
-      this.edited = 0;
-      this.build();
+      this.panel.edited = 0;
+      this.panel.build();
       this.changed();
     } catch (error) {
       this.complain(error);
@@ -105,7 +88,7 @@ export class Laboratory {
     if (role === "normal" && number === 0) await this.adopt(role, name);
     const motion = MOTIONS.find((one) => one.role === role && role !== "normal");
     if (motion && name !== "none") this.setMotion(motion.key);
-    this.build();
+    this.panel.build();
     this.changed();
   }
 
@@ -136,170 +119,14 @@ export class Laboratory {
   compare(wanted) {
     this.state.compare = wanted;
     if (wanted && this.state.contacts.length < 2) this.state.contacts.push(structuredClone(this.state.contacts[0]));
-    this.edited = wanted ? 1 : 0;
-    this.build();
+    this.panel.edited = wanted ? 1 : 0;
+    this.panel.build();
     this.changed();
-  }
-
-  // Controls
-
-  build() {
-    const { state } = this;
-    const presets = [["", "choose …"], ...this.presets.map((preset, index) => [String(index), preset.title])];
-    const shown = this.presets.findIndex((preset) => preset.title === state.title);
-    const file = element("input", { type: "file", accept: ".toml", hidden: true, onchange: (event) => this.file(event) });
-    this.side.replaceChildren(
-      choice("Figures of papers", presets, String(shown), (index) => index && this.preset(Number(index))),
-      this.contactTabs(),
-      ...this.contact(this.edited),
-      this.bodies(),
-      this.motionControls(),
-      element(
-        "div",
-        { class: "buttons" },
-        button("collide.toml", () => download("collide.toml", collideText(state, this.laws)), { title: "Download the scenario of the restitution curve for `pulvis collide`" }),
-        button("one-collision.toml", () => download("one-collision.toml", courseText(state, this.laws)), { title: "Download the scenario of the collision that is drawn for `pulvis collide`" }),
-        button("probe.toml", () => download("probe.toml", probeText(state, this.laws)), { title: "Download the scenario of the path for `pulvis probe`", disabled: !state.probe }),
-        button("open a file …", () => file.click(), { title: "Open a scenario for `pulvis collide` or `pulvis probe`" }),
-        file,
-      ),
-    );
-  }
-
-  contactTabs() {
-    const tab = (number) =>
-      button(`Contact ${LETTERS[number]}`, () => {
-        this.edited = number;
-        this.build();
-      }, { class: `tab swatch-${LETTERS[number]}`, "aria-pressed": this.edited === number });
-    const tabs = this.state.compare ? [tab(0), tab(1)] : [];
-    return element("div", { class: "tabs" }, ...tabs, tick("compare two contacts", this.state.compare, (wanted) => this.compare(wanted)));
-  }
-
-  contact(number) {
-    const laws = this.state.contacts[number].laws;
-    const section = (role) => this.role(number, role, laws[role]);
-    const folded = ROLES.filter((role) => !FIRST.includes(role));
-    const more = element("details", { open: folded.some((role) => laws[role]) }, element("summary", {}, "Sliding, rolling, torsion, bond"), ...folded.map(section));
-    return [...FIRST.map(section), more];
-  }
-
-  role(number, role, own) {
-    const entries = this.laws.filter((law) => law.role === role);
-    const names = entries.map((law) => [law.name, law.name, law.summary]);
-    const root = element("section", { class: "law" }, choice(TITLES[role], names, own?.law ?? "none", (name) => this.chooseLaw(number, role, name)));
-    const entry = own && entries.find((law) => law.name === own.law);
-    if (!entry) return root;
-    root.append(element("p", { class: "summary" }, entry.summary));
-    const given = [];
-    const others = [];
-    for (const parameter of entry.parameters) {
-      const isGiven = parameter.required || (own.values[parameter.name] !== undefined && own.values[parameter.name] !== parameter.default);
-      (isGiven ? given : others).push(this.parameter(number, role, own, parameter));
-    }
-    root.append(...given);
-    if (others.length) root.append(element("details", {}, element("summary", {}, `more parameters (${others.length})`), ...others));
-    const about = element("details", { class: "about" }, element("summary", {}, "equations and source"), element("pre", {}, entry.equations), element("p", {}, entry.source), element("p", {}, `Verified against: ${entry.verified}`));
-    root.append(about);
-    return root;
-  }
-
-  parameter(number, role, own, parameter) {
-    const value = own.values[parameter.name];
-    const change = (changed) => {
-      own.values[parameter.name] = changed;
-      this.changed();
-    };
-    if (parameter.options) {
-      const names = parameter.options.map((option) => [option.name, option.name, option.meaning]);
-      return choice(parameter.name, names, value ?? parameter.default, change);
-    }
-    const slider = new Quantity({ ...parameter, shown: parameter.symbol || parameter.name, change }, value ?? parameter.default ?? 0);
-    if (value === undefined || value === null) {
-      slider.root.classList.add("unset");
-      slider.field.placeholder = "not given";
-      slider.field.value = "";
-    }
-    return slider.root;
-  }
-
-  bodies() {
-    const { state } = this;
-    const one = (name, unit, values, meaning) =>
-      new Quantity({ name, unit, meaning, range: { low: 0, high: null }, change: (value) => {
-        values.fill(value);
-        this.changed();
-      } }, values[0]).root;
-    const kinds = [["pair", "two spheres"], ["wall", "a sphere and a plane"]];
-    const own = quantities(state, this.laws).map((entry) =>
-      new Quantity({ ...entry, change: (value) => {
-        // Charges of opposite signs attract.
-        const before = state.quantities[entry.name] ?? [1, 1];
-        state.quantities[entry.name] = [value, before[1] * before[0] < 0 ? -value : value];
-        this.changed();
-      } }, state.quantities[entry.name]?.[0] ?? 0).root);
-    const warm = state.temperature === null || state.temperature === undefined ? [] : [
-      new Quantity({ name: "temperature", unit: "K", meaning: "temperature that laws read", range: { low: 0, high: null }, change: (value) => {
-        state.temperature = value;
-        this.changed();
-      } }, state.temperature).root,
-    ];
-    return element(
-      "section",
-      { class: "law" },
-      choice("Bodies", kinds, state.bodies, (kind) => {
-        state.bodies = kind;
-        if (kind === "pair" && state.radius.length < 2) [state.radius, state.density] = [[state.radius[0], state.radius[0]], [state.density[0], state.density[0]]];
-        this.changed();
-      }),
-      one("radius", "m", state.radius, "radius of the bodies"),
-      one("density", "kg/m^3", state.density, "density of the bodies"),
-      ...own,
-      ...warm,
-    );
-  }
-
-  motionControls() {
-    const { state } = this;
-    this.velocity = new Quantity({ name: "velocity", unit: "m/s", meaning: "impact velocity of the collision that is drawn", range: { low: 0, high: null }, change: (value) => {
-      state.velocity = value;
-      this.changed();
-    } }, state.velocity);
-    const section = element("section", { class: "law" }, element("h3", {}, "Motion"), this.velocity.root);
-    section.append(button("range of velocities around this one", () => {
-      state.speeds = [state.velocity / 50, state.velocity * 20];
-      this.changed();
-    }));
-    if (!state.probe) return section;
-    const motions = MOTIONS.map(({ key }) => [key, MOTION_LABELS[key]]);
-    section.append(choice("Path", motions, state.motion, (motion) => {
-      this.setMotion(motion);
-      this.build();
-      this.changed();
-    }));
-    const scaled = (name, meaning, place) => {
-      const most = Math.max(...state.probe.poses.map((pose) => Math.abs(pose[place])));
-      return new Quantity({ name, unit: "m", meaning, range: { low: 0, high: null }, change: (value) => {
-        const now = Math.max(...state.probe.poses.map((pose) => Math.abs(pose[place])));
-        for (const pose of state.probe.poses) pose[place] *= value / now;
-        this.changed();
-      } }, most).root;
-    };
-    section.append(scaled("depth", "largest overlap of the path; the other turning points scale along", 0));
-    const other = MOTIONS.find((one) => one.key === state.motion);
-    if (other.place > 0) section.append(scaled(MOTION_LABELS[other.key], "amplitude of the motion along the surface", other.place));
-    if (state.probe.durations) {
-      section.append(new Quantity({ name: "leg", unit: "s", meaning: "time from one turning point to the next", range: { low: 0, high: null }, change: (value) => {
-        state.probe.durations = state.probe.durations.map(() => value);
-        this.changed();
-      } }, state.probe.durations[0]).root);
-    }
-    return section;
   }
 
   pickVelocity(value) {
     this.state.velocity = Number(value.toPrecision(4));
-    this.velocity.set(this.state.velocity);
+    this.panel.velocity.set(this.state.velocity);
     this.changed();
   }
 
@@ -375,7 +202,7 @@ export class Laboratory {
     const duration = this.collision?.contacts[0].course?.contact_duration;
     const time = Number((duration > 0 ? duration / 2 : 1e-4).toPrecision(3));
     probe.durations = probe.poses.slice(1).map(() => time);
-    this.build();
+    this.panel.build();
     this.pending.dirty = true;
     return true;
   }
@@ -401,7 +228,7 @@ export class Laboratory {
     if (!this.state.probe && first) {
       const poses = pathOf("overlap", first.overlap_max, 0, 0.4 * first.overlap_max);
       this.state.probe = { poses, durations: null, points: 150 };
-      this.build();
+      this.panel.build();
       this.pending.dirty = true;
     }
     const restitution = contacts.flatMap(({ velocity, restitution, theory, colour, number }) => [

@@ -1,10 +1,10 @@
 // The frames of a run: particles in space, time below, series below that.
 
-import { button, choice, tick } from "./controls.js";
+import { button } from "./controls.js";
 import { Camera, VIEWS } from "./camera.js";
 import { Chart } from "./chart.js";
-import { MAP_NAMES, paint } from "./colour.js";
 import { download, element, number, quantity, unitText } from "./format.js";
+import { LookPanel, NAMES } from "./look.js";
 import { Scene } from "./spheres.js";
 
 /** How often a run is asked whether it has grown [ms]. */
@@ -22,10 +22,6 @@ const LARGE_WALLS = 3;
 /** Units of what every frame has, where the run does not say. */
 const UNITS = { radius: "m", v: "m/s", omega: "rad/s", f: "N", torque: "N m", mass: "kg", stress: "Pa", stored_energy: "J", kinetic_translation: "J", kinetic_rotation: "J", coordination: "1", id: "1", type: "1" };
 
-const NAMES = { v: "speed", omega: "angular velocity", f: "total force", torque: "total torque", type: "material", id: "number" };
-
-const KEYS = [["space", "play"], ["← →", "frame"], ["x y z i", "view"], ["+ −", "zoom"], ["r", "whole"]];
-
 export class RunView {
   constructor(source, run) {
     Object.assign(this, { source, run });
@@ -38,18 +34,18 @@ export class RunView {
   build() {
     this.canvas = element("canvas", { tabindex: 0, "aria-label": "particles; drag to turn, shift and drag to move, wheel to zoom, click for values", role: "application" });
     this.corner = element("div", { class: "corner" });
-    this.bar = element("div", { class: "colourbar" });
+    this.panel = new LookPanel(this);
+    this.bar = this.panel.bar;
     this.picked = element("div", { class: "picked", hidden: true, role: "status" });
     this.message = element("div", { class: "message", role: "alert", hidden: true });
     this.viewport = element("div", { class: "viewport" }, this.canvas, this.corner, this.bar, this.picked);
     this.slider = element("input", { type: "range", min: 0, max: 0, value: 0, "aria-label": "frame", oninput: () => this.go(Number(this.slider.value)) });
     this.clock = element("output", {});
     this.playing = button("play", () => this.play(), { "aria-pressed": false });
-    this.side = element("div", { class: "side", role: "group", "aria-label": "Look" });
     this.chart = new Chart({ title: "Time series", x: { label: "time t", unit: "s", tight: true }, y: { label: "", unit: "1" }, pick: (time) => this.goTo(time) });
     this.below = element("div", { class: "below" }, this.chart.root);
     const player = element("div", { class: "player" }, this.playing, this.slider, this.clock);
-    this.root = element("section", { class: "run", id: "run" }, this.side, element("div", { class: "stage" }, this.message, this.viewport, player, this.below));
+    this.root = element("section", { class: "run", id: "run" }, this.panel.root, element("div", { class: "stage" }, this.message, this.viewport, player, this.below));
     try {
       this.scene = new Scene(this.canvas);
     } catch (error) {
@@ -65,6 +61,7 @@ export class RunView {
     if (!this.scene) return;
     const { times } = this.run;
     for (const key of ["column", "map", "clip"]) if (hash.has(key)) this.look[key] = hash.get(key);
+    this.scene.setMap(this.look.map);
     if (hash.has("contacts")) Object.assign(this.look, { contacts: true, scale: 0.35 });
     const wanted = hash.has("frame") ? Number(hash.get("frame")) : times.length - 1;
     this.follow = !hash.has("frame");
@@ -75,7 +72,7 @@ export class RunView {
       this.fit();
       if (hash.has("camera")) this.camera.read(hash.get("camera"));
     }
-    this.controls();
+    this.panel.build();
     this.render();
     if (this.source.live) this.poll();
   }
@@ -145,7 +142,7 @@ export class RunView {
     }
     this.own = [low, high];
     this.range = this.look.range ?? this.own;
-    this.legend();
+    this.panel.legend();
   }
 
   goTo(time) {
@@ -201,7 +198,7 @@ export class RunView {
       if (before === 0) {
         await this.go(0);
         this.fit();
-        this.controls();
+        this.panel.build();
       }
       if (this.follow || before === 0) await this.go(run.times.length - 1);
     }
@@ -241,104 +238,6 @@ export class RunView {
       markers: this.frame ? [{ x: this.frame.time }] : [],
       note: "the run has no time series yet",
     });
-  }
-
-  // Controls
-
-  controls() {
-    const { look } = this;
-    const columns = (this.frame?.columns ?? []).map(({ name }) => [name, NAMES[name] ? `${NAMES[name]} (${name})` : name.replaceAll("_", " ")]);
-    const contactsBox = tick("contacts by force", look.contacts, async (on) => {
-      look.contacts = on;
-      look.scale = on ? 0.35 : 1;
-      if (on) this.scene.setContacts(await this.source.contacts(look.number));
-      this.controls();
-      this.render();
-    }, "tubes as thick as the root of the normal force; blue pushes, orange pulls");
-    const slide = (label, value, low, high, change) => {
-      const slider = element("input", { type: "range", min: low, max: high, value, "aria-label": label, oninput: () => change(Number(slider.value)) });
-      return element("div", { class: "choice" }, element("span", {}, label), slider);
-    };
-    const clips = [["none", "none"], ["x<", "keep low x"], ["x>", "keep high x"], ["y<", "keep low y"], ["y>", "keep high y"], ["z<", "keep low z"], ["z>", "keep high z"]];
-    const series = (this.names ?? []).filter((name) => name !== "time").map((name) => [name, name.replaceAll("_", " ")]);
-    this.side.replaceChildren(
-      choice("Colour by", columns, look.column, (name) => {
-        look.column = name;
-        look.range = null;
-        this.go(look.number).then(() => this.controls());
-      }),
-      choice("Colour map", MAP_NAMES.map((name) => [name, name]), look.map, (name) => {
-        look.map = name;
-        this.scene.setMap(name);
-        this.ends();
-        this.render();
-      }),
-      this.rangeFields(),
-      element("section", { class: "law" },
-        slide("Size of spheres", Math.round(100 * look.scale), 5, 100, (value) => {
-          look.scale = value / 100;
-          this.render();
-        }),
-        contactsBox),
-      element("section", { class: "law" },
-        choice("Cut", clips, look.clip, (name) => {
-          look.clip = name;
-          this.render();
-        }),
-        slide("at [%]", look.cut, 0, 100, (value) => {
-          look.cut = value;
-          this.render();
-        })),
-      element("section", { class: "law" },
-        choice("Time series", series, this.quantityName, (name) => this.loadSeries(name)),
-        this.source.live ? tick("follow the run", this.follow ?? false, (on) => {
-          this.follow = on;
-          if (on) this.go(this.run.times.length - 1);
-        }) : element("p", { class: "summary" }, this.embeddedNote())),
-      element("div", { class: "buttons" },
-        ...Object.keys(VIEWS).map((name) => button(name === "i" ? "askew" : `along ${name}`, () => this.turnTo(name))),
-        button("whole", () => this.whole()),
-        button("picture.png", () => this.picture(), { title: "Download the picture with its legend" })),
-      element("p", { class: "keys" }, ...KEYS.flatMap(([keys, what]) => [element("kbd", {}, keys), ` ${what}  `])),
-    );
-  }
-
-  embeddedNote() {
-    const { times, frames_of_run: all, one_of: share } = this.run;
-    const thinned = share > 1 ? `, one particle of ${share}` : "";
-    return `${times.length} of ${all} frames${thinned}`;
-  }
-
-  rangeFields() {
-    const field = (place, label) => {
-      const input = element("input", { type: "text", inputmode: "decimal", "aria-label": label, placeholder: label, value: this.look.range ? number(this.look.range[place], 5) : "" });
-      input.addEventListener("change", () => {
-        const text = input.value.trim();
-        const range = [...(this.look.range ?? this.own)];
-        range[place] = Number(text.replace(",", "."));
-        this.look.range = text === "" || !Number.isFinite(range[place]) ? null : range;
-        this.ends();
-        this.render();
-      });
-      return input;
-    };
-    const now = button("keep this range", () => {
-      this.look.range = this.look.range ? null : [...this.own];
-      this.ends();
-      this.controls();
-      this.render();
-    }, { "aria-pressed": this.look.range !== null, title: "The same colours for all frames, not the range of each" });
-    return element("div", {}, element("div", { class: "pair" }, field(0, "colours from"), field(1, "to")), now);
-  }
-
-  legend() {
-    const { look } = this;
-    const { unit } = this.describe("particles_*.vtp", look.column);
-    const label = `${NAMES[look.column] ?? look.column.replaceAll("_", " ")}${unit === "1" ? "" : ` [${unitText(unit)}]`}`;
-    const strip = element("canvas", { role: "img", "aria-label": `colours of ${label}` });
-    paint(strip, look.map);
-    const [low, high] = this.range;
-    this.bar.replaceChildren(element("span", {}, label), strip, element("div", { class: "ends" }, element("span", {}, number(low, 4)), element("span", {}, number((low + high) / 2, 4)), element("span", {}, number(high, 4))));
   }
 
   say() {

@@ -30,7 +30,9 @@ pub(crate) const MODULES: &[File] = files![
     "spheres.js",
     "scenario.js",
     "controls.js",
+    "panel.js",
     "laboratory.js",
+    "look.js",
     "run.js",
     "main.js",
 ];
