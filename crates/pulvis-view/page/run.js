@@ -19,6 +19,15 @@ const RATE = 12;
 /** Walls that are so many times larger than the bed are not looked at as a whole. */
 const LARGE_WALLS = 3;
 
+/** A moving picture that takes longer is drawn more coarsely [ms]. */
+const SLOW = 80;
+
+/** The coarsest picture, in pixels to the pixel. */
+const COARSEST = 0.3;
+
+/** Radius of the thickest tube, in radii of a particle. */
+const TUBE = 0.25;
+
 /** Units of what every frame has, where the run does not say. */
 const UNITS = { radius: "m", v: "m/s", omega: "rad/s", f: "N", torque: "N m", mass: "kg", stress: "Pa", stored_energy: "J", kinetic_translation: "J", kinetic_rotation: "J", coordination: "1", id: "1", type: "1" };
 
@@ -28,6 +37,8 @@ export class RunView {
     this.camera = new Camera();
     this.look = { number: 0, column: "v", map: "viridis", scale: 1, contacts: false, clip: "none", cut: 50, range: null, chosen: -1 };
     this.grown = -Infinity;
+    this.quality = 1;
+    this.before = -Infinity;
     this.build();
   }
 
@@ -315,11 +326,12 @@ export class RunView {
     const mean = frame.radii.length ? frame.radii[frame.radii.length >> 1] : 1;
     return {
       camera: this.camera,
+      quality: this.quality,
       range: this.range,
       scale: look.scale,
       clip: this.clip(),
       chosen: look.chosen,
-      contacts: look.contacts ? 0.45 * mean : 0,
+      contacts: look.contacts ? TUBE * mean : 0,
       ink: colour("--faint"),
       ground: colour("--scene"),
       mark: colour("--series-B"),
@@ -330,14 +342,28 @@ export class RunView {
 
   render(moved) {
     if (!this.frame || !this.range || this.due) return;
-    this.due = requestAnimationFrame(() => {
+    this.due = requestAnimationFrame((now) => {
       this.due = null;
+      this.pace(now, moved);
       this.scene.draw(this.appearance());
       this.say();
       this.drawn = (this.drawn ?? 0) + 1;
       clearTimeout(this.resting);
-      this.resting = setTimeout(() => this.address(moved), 250);
+      this.resting = setTimeout(() => this.rest(), 250);
     });
+  }
+
+  /** Where pictures come slowly, moving ones are coarser, and the one at rest is fine again. */
+  pace(now, moved) {
+    if (moved && now - this.before < 2000) {
+      if (now - this.before > SLOW) this.quality = Math.max(0.6 * this.quality, COARSEST);
+    } else this.quality = 1;
+    this.before = moved ? now : -Infinity;
+  }
+
+  rest() {
+    this.address();
+    if (this.quality < 1) this.render();
   }
 
   address() {

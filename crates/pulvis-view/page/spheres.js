@@ -237,10 +237,10 @@ export class Scene {
     for (const [key, value] of [[gl.TEXTURE_MIN_FILTER, gl.NEAREST], [gl.TEXTURE_MAG_FILTER, gl.NEAREST], [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE]]) gl.texParameteri(gl.TEXTURE_2D, key, value);
   }
 
-  /** `look`: `camera`, `range`, `scale`, `clip` (normal and offset), `chosen`, `contacts` (width), `ink`, `ground`. */
+  /** `look`: `camera`, `quality` (pixels to the pixel), `range`, `scale`, `clip` (normal and offset), `chosen`, `contacts` (width), `ink`, `ground`. */
   draw(look) {
     const { gl, canvas } = this;
-    const dense = Math.min(window.devicePixelRatio || 1, 2);
+    const dense = Math.min(window.devicePixelRatio || 1, 2) * look.quality;
     const [width, height] = [Math.max(1, Math.round(canvas.clientWidth * dense)), Math.max(1, Math.round(canvas.clientHeight * dense))];
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);

@@ -7,6 +7,7 @@
 mod access;
 mod error;
 mod export;
+mod http;
 mod laboratory;
 mod message;
 mod page;
