@@ -56,7 +56,9 @@ async function open(url, options = {}) {
 
 /** Until nothing is asked or drawn any more. */
 async function settled(page) {
-  await page.waitForTimeout(700);
+  await page.waitForTimeout(300);
+  await page.waitForFunction(() => !document.querySelector('[data-busy="true"]'), null, { timeout: 30000 });
+  await page.waitForTimeout(400);
 }
 
 /** Axe's serious and critical faults. */

@@ -140,6 +140,7 @@ export class Laboratory {
 
   async compute() {
     this.pending.busy = true;
+    this.root.dataset.busy = "true";
     while (this.pending.dirty) {
       this.pending.dirty = false;
       const began = this.since;
@@ -148,10 +149,10 @@ export class Laboratory {
       if (!this.pending.dirty) await this.complete(began);
     }
     this.pending.busy = false;
+    this.root.dataset.busy = "false";
     clearTimeout(this.resting);
     this.resting = setTimeout(() => this.searchSticking(), REST);
     history.replaceState(null, "", `#lab=${packed(this.state)}`);
-    this.root.dispatchEvent(new Event("drawn"));
   }
 
   async redraw(began) {

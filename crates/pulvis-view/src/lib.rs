@@ -1,7 +1,7 @@
 //! The page of `pulvis view`: a contact laboratory, and the frames of a run, in the browser.
 //!
 //! [`Viewer`] serves one page with everything in it, and answers its questions. It computes nothing of its own: the page
-//! writes scenario files, and the laboratory does with them what `pulvis collide` and `pulvis probe` do. [`export`] writes the
+//! writes scenario files, and the laboratory does with them what `pulvis collide` and `pulvis probe` do. [`export()`] writes the
 //! page with the frames of a run into one file that needs no server.
 
 mod access;

@@ -6,6 +6,7 @@ use pulvis_lab::collision::{
     Collision, CollisionError, Observation, Outcome, Regime, Sample, Sampling, closed_form, collide,
     sampling_interval, typical_speed,
 };
+use pulvis_math::elementary;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
@@ -105,7 +106,7 @@ fn computed(
 /// The velocities, and more between them in equal ratios.
 fn finer(velocities: &[f64]) -> impl Iterator<Item = f64> {
     let between = velocities.iter().zip(velocities.iter().skip(1)).flat_map(|(&low, &high)| {
-        (0..BETWEEN).map(move |number| low * (high / low).powf(number as f64 / BETWEEN as f64))
+        (0..BETWEEN).map(move |number| low * elementary::powf(high / low, number as f64 / BETWEEN as f64))
     });
     between.chain(velocities.last().copied())
 }

@@ -10,6 +10,7 @@ use pulvis_input::probe::{ProbePath, ProbeScenario};
 use pulvis_input::{Document, LabelledContact, Surroundings};
 use pulvis_lab::collision::typical_speed;
 use pulvis_lab::portrait::portrait;
+use pulvis_math::elementary;
 use serde_json::{Map, Value, json};
 
 /// The scenario that shows most of a law's example.
@@ -80,7 +81,8 @@ fn surrounded(bodies: &Bodies, surroundings: &Surroundings) -> Value {
         Bodies::Pair(spheres) => ("pair", spheres.to_vec()),
         Bodies::Wall(sphere) => ("wall", vec![*sphere]),
     };
-    let density = |sphere: &Sphere| sphere.mass / (4.0 / 3.0 * std::f64::consts::PI * sphere.radius.powi(3));
+    let volume = |radius: f64| 4.0 / 3.0 * std::f64::consts::PI * elementary::powi(radius, 3);
+    let density = |sphere: &Sphere| sphere.mass / volume(sphere.radius);
     let quantities = surroundings.quantities.iter();
     json!({
         "bodies": kind,
