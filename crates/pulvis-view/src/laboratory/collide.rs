@@ -3,8 +3,8 @@
 use super::{column, document, words};
 use pulvis_input::collision::{CollisionCase, CollisionScenario, Method};
 use pulvis_lab::collision::{
-    Collision, CollisionError, Observation, Outcome, Regime, Sample, Sampling, closed_form, collide,
-    sampling_interval, typical_speed,
+    Collision, Observation, Outcome, Regime, Sample, Sampling, closed_form, collide, sampling_interval,
+    typical_speed,
 };
 use pulvis_math::elementary;
 use serde_json::{Value, json};
@@ -122,12 +122,8 @@ fn course(case: &CollisionCase) -> Value {
     };
     match collide(case, &observation) {
         Ok(collision) => drawn(case, &collision),
-        Err(error) => json!({ "failure": failure(&error) }),
+        Err(error) => json!({ "failure": error.to_string() }),
     }
-}
-
-fn failure(error: &CollisionError) -> String {
-    error.to_string()
 }
 
 fn drawn(case: &CollisionCase, collision: &Collision) -> Value {
