@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods)] // no bit of a simulation is made here
 
 mod book;
+mod browser;
 mod check_docs;
 mod ci;
 mod dependencies;
@@ -30,6 +31,7 @@ usage: cargo xtask <task>
                        random paths (half an hour)
   soak [MINUTES]       a driven bed for 10 minutes or as long as told: memory, ledger, contacts against brute force
   python               the Python package: lints, wheel, and its tests in an environment of its own (minutes: it builds the engine)
+  browser              the page of `pulvis view` in Chromium without a window, where Node.js and Chromium are (some minutes)
   ci                   everything that must hold before a change is merged
   experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
   scenarios            shows every good and bad scenario of the tests to the pulvis command
@@ -53,6 +55,7 @@ fn main() -> ExitCode {
         ["soak"] => tests::soak("10"),
         ["soak", minutes] => tests::soak(minutes),
         ["python"] => python::run_all(),
+        ["browser"] => browser::run_all(),
         ["ci"] => ci::run_all(),
         ["experiments"] => experiments::run(None),
         ["experiments", folder] => experiments::run(Some(folder)),

@@ -16,7 +16,10 @@ pub struct LabelledContact {
 }
 
 /// Reads `[contact]` and all `[[compare]]`, which take the laws that they leave out from `[contact]`.
-pub(crate) fn read_compared(root: &mut TableReader<'_>) -> Result<Vec<LabelledContact>, Reported> {
+///
+/// # Errors
+/// Laws or parameters that are refused, or two contacts of the same label.
+pub fn read_compared(root: &mut TableReader<'_>) -> Result<Vec<LabelledContact>, Reported> {
     let base = root.required_table("contact").and_then(|table| Draft::read(table, None));
     let variants = root.tables("compare");
     let (base, variants) = (base?, variants?);

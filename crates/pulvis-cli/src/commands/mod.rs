@@ -6,6 +6,7 @@ mod check;
 mod collide;
 mod completions;
 mod explain;
+mod export;
 mod info;
 mod laws;
 mod machine;
@@ -25,6 +26,7 @@ mod status;
 mod study;
 mod study_progress;
 mod verify;
+mod view;
 mod words;
 
 use std::process::ExitCode;
@@ -50,6 +52,10 @@ pub enum Command {
     Render(render::Arguments),
     /// Spreads particles and contacts of a run over a grid: density, velocity, stress, fabric
     Analyze(analyze::Arguments),
+    /// Opens a laboratory of contact laws, and a run, in the browser
+    View(view::Arguments),
+    /// Writes a run as one HTML file that shows it without a server
+    Export(export::Arguments),
     /// Says what checkpoints of runs hold, and whether they are whole
     Info(info::Arguments),
     /// Says what stopped a run, and what it was like before
@@ -83,6 +89,8 @@ impl Command {
             Self::Run(arguments) => run::execute(arguments),
             Self::Render(arguments) => render::execute(arguments),
             Self::Analyze(arguments) => analyze::execute(arguments),
+            Self::View(arguments) => view::execute(arguments),
+            Self::Export(arguments) => export::execute(arguments),
             Self::Info(arguments) => info::execute(arguments),
             Self::Explain(arguments) => explain::execute(arguments),
             Self::Collide(arguments) => collide::execute(arguments),

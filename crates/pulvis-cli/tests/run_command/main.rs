@@ -1,4 +1,4 @@
-//! `pulvis run`, `pulvis check`, `pulvis render`, `pulvis study` and `pulvis reproduce` from outside: files, messages, exit codes, Ctrl-C.
+//! `pulvis run`, `pulvis check`, `pulvis render`, `pulvis study`, `pulvis reproduce` and `pulvis view` from outside: files, messages, exit codes, Ctrl-C.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stderr)]
 
@@ -14,3 +14,4 @@ mod run;
 mod start;
 mod study;
 mod watch;
+mod view;

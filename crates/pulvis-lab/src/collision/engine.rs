@@ -110,7 +110,7 @@ impl<'p> Run<'p> {
     }
 
     fn step(&mut self) -> Result<(), CollisionError> {
-        if self.simulation.steps() >= MOST_STEPS {
+        if self.simulation.steps() >= self.observation.most_steps.unwrap_or(MOST_STEPS) {
             let (velocity, steps, time) = (self.problem.velocity, self.simulation.steps(), self.now.time);
             let damped = self.problem.is_damped();
             return Err(CollisionError::TooLong { velocity, steps, time, damped });

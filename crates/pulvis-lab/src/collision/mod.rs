@@ -24,7 +24,7 @@ pub use oblique::{ObliqueOutcome, ObliqueSample};
 pub use outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
 pub(crate) use picture::{case_label, drawn_course, fine_cases, sticking_limits};
 pub use picture::{figure, sampling_interval};
-pub use sticking::sticking_ranges;
+pub use sticking::{sticking_ranges, typical_speed};
 pub use table::{
     COLUMNS, OBLIQUE_COLUMNS, OBLIQUE_TRAJECTORY_COLUMNS, TRAJECTORY_COLUMNS, result_table, trajectory_table,
 };

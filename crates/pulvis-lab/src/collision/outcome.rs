@@ -98,9 +98,6 @@ pub enum Sampling {
     At(Vec<f64>),
 }
 
-/// More steps than any collision should take: overdamped pairs creep, but not that long.
-const MOST_STEPS: u64 = 2_000_000;
-
 /// How a collision is observed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
@@ -108,14 +105,14 @@ pub struct Observation {
     pub sampling: Sampling,
     /// How long a pair that stuck is followed [s].
     pub time_after_sticking: f64,
-    /// Exact only: steps after which the collision is given up.
-    pub most_steps: u64,
+    /// Steps after which the collision is given up; `None` is a number of the method that no collision should take.
+    pub most_steps: Option<u64>,
     /// Engine only: which part of a step the bodies fly before they come within reach [1].
     pub phase: f64,
 }
 
 impl Default for Observation {
     fn default() -> Self {
-        Self { sampling: Sampling::None, time_after_sticking: 0.0, most_steps: MOST_STEPS, phase: 0.5 }
+        Self { sampling: Sampling::None, time_after_sticking: 0.0, most_steps: None, phase: 0.5 }
     }
 }

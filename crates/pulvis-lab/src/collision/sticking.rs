@@ -59,6 +59,12 @@ pub fn sticking_ranges(
     Ok(ranges)
 }
 
+/// The relative speed that reaches the plastic limit of a contact, or loads it to a twentieth of the radius where it has none:
+/// around it a contact shows what it does [m/s].
+pub fn typical_speed(bodies: Bodies, contact: &ContactModel, surroundings: &Surroundings) -> f64 {
+    Search { bodies, contact, surroundings }.typical_speed()
+}
+
 struct Search<'c> {
     bodies: Bodies,
     contact: &'c ContactModel,
@@ -91,7 +97,7 @@ impl Search<'_> {
     }
 
     fn sticks(&self, velocity: f64) -> Result<bool, CollisionError> {
-        let observation = Observation { most_steps: MOST_STEPS, ..Observation::default() };
+        let observation = Observation { most_steps: Some(MOST_STEPS), ..Observation::default() };
         Ok(collide(&self.case(velocity), &observation)?.outcome.regime == Regime::Stick)
     }
 

@@ -16,6 +16,9 @@ use super::problem::Problem;
 use events::Event;
 use pulvis_contact::ContactResponse;
 
+/// More steps than any collision should take: overdamped pairs creep, but not that long.
+const MOST_STEPS: u64 = 2_000_000;
+
 /// Part of the shortest contact time that a step may cover at most, so that no pair of turning points
 /// falls between its ends.
 const LONGEST_STEP: f64 = 1.0 / 8.0;
@@ -111,7 +114,7 @@ impl<'p> Flight<'p> {
     /// Takes one step, up to the next event.
     fn step(&mut self) -> Result<(), CollisionError> {
         self.steps += 1;
-        if self.steps > self.observation.most_steps {
+        if self.steps > self.observation.most_steps.unwrap_or(MOST_STEPS) {
             let (velocity, steps, time) = (self.problem.velocity, self.steps, self.time);
             let damped = self.problem.is_damped();
             return Err(CollisionError::TooLong { velocity, steps, time, damped });

@@ -1,0 +1,258 @@
+// Charts in SVG: lines and points over linear or logarithmic axes, with a crosshair that reads values.
+
+import { element, logLabel, logTicks, number, scale, ticks } from "./format.js";
+
+const SVG = "http://www.w3.org/2000/svg";
+const MARGIN = { left: 62, right: 14, top: 10, bottom: 44 };
+const GAP = 0.06;
+
+function svg(name, attributes = {}, text) {
+  const made = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  if (text !== undefined) made.textContent = text;
+  return made;
+}
+
+/** Ends of all numbers, or `null`. */
+function extent(lists) {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const list of lists) {
+    for (const value of list) {
+      if (value !== null && Number.isFinite(value)) {
+        if (value < low) low = value;
+        if (value > high) high = value;
+      }
+    }
+  }
+  return low <= high ? [low, high] : null;
+}
+
+class Axis {
+  constructor(range, pixels, log, unit, padded) {
+    this.log = log;
+    let [low, high] = range;
+    if (log) {
+      low = Math.max(low, 1e-300);
+      high = Math.max(high, low * 1.0001);
+    } else {
+      if (!(high > low)) {
+        const size = Math.abs(low) || 1;
+        [low, high] = [low - 0.5 * size, high + 0.5 * size];
+      }
+      if (padded) [low, high] = [low - GAP * (high - low), high + GAP * (high - low)];
+    }
+    Object.assign(this, { low, high, pixels });
+    this.scaled = log ? { factor: 1, unit: scale(unit, 1).unit } : scale(unit, Math.max(Math.abs(low), Math.abs(high)));
+  }
+
+  place(value) {
+    const share = this.log
+      ? Math.log(value / this.low) / Math.log(this.high / this.low)
+      : (value - this.low) / (this.high - this.low);
+    return this.pixels[0] + share * (this.pixels[1] - this.pixels[0]);
+  }
+
+  value(pixel) {
+    const share = (pixel - this.pixels[0]) / (this.pixels[1] - this.pixels[0]);
+    return this.log ? this.low * (this.high / this.low) ** share : this.low + share * (this.high - this.low);
+  }
+
+  ticks(wanted) {
+    if (this.log) return logTicks(this.low, this.high).map((value) => [value, logLabel(value)]);
+    const { factor } = this.scaled;
+    return ticks(this.low / factor, this.high / factor, wanted).map((value) => [value * factor, number(value, 6)]);
+  }
+}
+
+/** A chart that fills its element and is drawn anew by `show`. */
+export class Chart {
+  /** `title`, `x` and `y` with `label` and `unit`, `x.log`, and `pick(value)` for clicks. */
+  constructor(options) {
+    this.options = options;
+    this.legend = element("div", { class: "legend" });
+    this.plot = element("div", { class: "plot" });
+    this.readout = element("output", { class: "readout" });
+    this.title = element("h3", {}, options.title);
+    this.root = element("figure", { class: "chart" }, element("figcaption", {}, this.title, this.legend), this.plot, this.readout);
+    this.content = { series: [] };
+    this.observer = new ResizeObserver(() => this.draw());
+    this.observer.observe(this.plot);
+    this.plot.addEventListener("pointermove", (event) => this.hover(event));
+    this.plot.addEventListener("pointerleave", () => this.leave());
+    if (options.pick) {
+      this.plot.classList.add("pickable");
+      this.plot.addEventListener("click", (event) => this.click(event));
+    }
+  }
+
+  /** `series`: `{name, x, y, colour, dashed, points}`; `markers`: `{x, colour}`; `bands`: `{low, high}`; `note`. */
+  show(content) {
+    this.content = content;
+    if (content.title) this.title.textContent = content.title;
+    this.draw();
+  }
+
+  axes(width, height) {
+    const { series, x, y } = { ...this.options, ...this.content };
+    const positive = (list) => list.map((value) => (value > 0 ? value : null));
+    const xs = extent(series.map((one) => (x.log ? positive(one.x) : one.x)));
+    const ys = extent([...series.map((one) => one.y), ...(y.include ? [y.include] : [])]);
+    if (!xs || !ys) return null;
+    return {
+      x: new Axis(x.range ?? xs, [MARGIN.left, width - MARGIN.right], x.log ?? false, x.unit, !x.log && !x.tight),
+      y: new Axis(y.range ?? ys, [height - MARGIN.bottom, MARGIN.top], false, y.unit, !y.range),
+    };
+  }
+
+  draw() {
+    const width = this.plot.clientWidth;
+    const height = this.plot.clientHeight;
+    if (width < 80 || height < 80) return;
+    const picture = svg("svg", { width, height, role: "img", "aria-label": this.description() });
+    this.drawn = this.axes(width, height);
+    if (this.drawn) {
+      this.drawBands(picture, height);
+      this.drawAxes(picture, width, height);
+      this.drawSeries(picture);
+      this.drawMarkers(picture, height);
+    } else {
+      picture.append(svg("text", { x: width / 2, y: height / 2, class: "empty" }, this.content.note ?? "nothing to draw"));
+    }
+    this.cursor = svg("g", { class: "cursor" });
+    picture.append(this.cursor);
+    this.plot.replaceChildren(picture);
+    this.drawLegend();
+  }
+
+  description() {
+    const names = this.content.series.map((one) => one.name).filter(Boolean).join(", ");
+    const { x, y } = { ...this.options, ...this.content };
+    return `${this.title.textContent}: ${y.label} over ${x.label}${names ? `; ${names}` : ""}`;
+  }
+
+  label(axis) {
+    const { label } = { ...this.options, ...this.content }[axis];
+    return `${label} [${this.drawn[axis].scaled.unit || "1"}]`;
+  }
+
+  drawAxes(picture, width, height) {
+    const { x, y } = this.drawn;
+    const grid = svg("g", { class: "grid" });
+    for (const [value, text] of x.ticks(Math.max(3, Math.floor(width / 90)))) {
+      const at = x.place(value);
+      grid.append(svg("line", { x1: at, x2: at, y1: MARGIN.top, y2: height - MARGIN.bottom }));
+      grid.append(svg("text", { x: at, y: height - MARGIN.bottom + 16, "text-anchor": "middle" }, text));
+    }
+    for (const [value, text] of y.ticks(Math.max(3, Math.floor(height / 50)))) {
+      const at = y.place(value);
+      const zero = value === 0 ? { class: "zero" } : {};
+      grid.append(svg("line", { x1: MARGIN.left, x2: width - MARGIN.right, y1: at, y2: at, ...zero }));
+      grid.append(svg("text", { x: MARGIN.left - 7, y: at + 4, "text-anchor": "end" }, text));
+    }
+    const middle = (MARGIN.left + width - MARGIN.right) / 2;
+    const centre = (MARGIN.top + height - MARGIN.bottom) / 2;
+    grid.append(svg("text", { x: middle, y: height - 8, class: "axis", "text-anchor": "middle" }, this.label("x")));
+    grid.append(
+      svg("text", { x: 14, y: centre, class: "axis", "text-anchor": "middle", transform: `rotate(-90 14 ${centre})` }, this.label("y")),
+    );
+    picture.append(grid);
+  }
+
+  drawBands(picture, height) {
+    const { x } = this.drawn;
+    const inside = (value) => Math.min(Math.max(value, x.low), x.high);
+    for (const band of this.content.bands ?? []) {
+      const from = x.place(inside(band.low ?? x.low));
+      const to = x.place(inside(band.high ?? x.high));
+      if (to - from < 0.5) continue;
+      const rectangle = svg("rect", { x: from, width: to - from, y: MARGIN.top, height: height - MARGIN.top - MARGIN.bottom, fill: band.colour, class: "band" });
+      rectangle.append(svg("title", {}, band.label));
+      picture.append(rectangle);
+      if (to - from > 46) {
+        picture.append(svg("text", { x: (from + to) / 2, y: MARGIN.top + 14 + 14 * (band.row ?? 0), class: "bandlabel", "text-anchor": "middle" }, band.label));
+      }
+    }
+  }
+
+  drawSeries(picture) {
+    const { x, y } = this.drawn;
+    for (const one of this.content.series) {
+      let path = "";
+      let pen = false;
+      const dots = svg("g", { fill: "none", stroke: one.colour, class: "dots" });
+      one.x.forEach((value, place) => {
+        const height = one.y[place];
+        if (value === null || height === null || !Number.isFinite(value) || !Number.isFinite(height) || (x.log && value <= 0)) {
+          pen = false;
+          return;
+        }
+        const [across, up] = [x.place(value).toFixed(2), y.place(height).toFixed(2)];
+        if (one.points) dots.append(svg("circle", { cx: across, cy: up, r: 2.6 }));
+        else path += `${pen ? "L" : "M"}${across} ${up}`;
+        pen = true;
+      });
+      if (one.points) picture.append(dots);
+      else picture.append(svg("path", { d: path, stroke: one.colour, class: one.dashed ? "line dashed" : "line" }));
+    }
+  }
+
+  drawMarkers(picture, height) {
+    const { x } = this.drawn;
+    for (const marker of this.content.markers ?? []) {
+      if (!(marker.x >= x.low && marker.x <= x.high)) continue;
+      const at = x.place(marker.x);
+      picture.append(svg("line", { x1: at, x2: at, y1: MARGIN.top, y2: height - MARGIN.bottom, class: "marker" }));
+    }
+  }
+
+  drawLegend() {
+    const entry = (one) => {
+      const mark = svg("svg", { width: 22, height: 10, "aria-hidden": "true" });
+      if (one.points) mark.append(svg("circle", { cx: 11, cy: 5, r: 3, fill: "none", stroke: one.colour, "stroke-width": 1.4 }));
+      else mark.append(svg("path", { d: "M1 5L21 5", stroke: one.colour, class: one.dashed ? "line dashed" : "line" }));
+      return element("span", {}, mark, one.name);
+    };
+    this.legend.replaceChildren(...this.content.series.filter((one) => one.name).map(entry));
+  }
+
+  /** The point of any series that is nearest to the pointer. */
+  nearest(event) {
+    if (!this.drawn) return null;
+    const box = this.plot.getBoundingClientRect();
+    const [px, py] = [event.clientX - box.left, event.clientY - box.top];
+    let best = null;
+    for (const one of this.content.series) {
+      one.x.forEach((value, place) => {
+        const height = one.y[place];
+        if (value === null || height === null || (this.drawn.x.log && value <= 0)) return;
+        const [across, up] = [this.drawn.x.place(value), this.drawn.y.place(height)];
+        const far = (across - px) ** 2 + 0.3 * (up - py) ** 2;
+        if (!best || far < best.far) best = { far, across, up, value, height, one, place };
+      });
+    }
+    return best;
+  }
+
+  hover(event) {
+    const found = this.nearest(event);
+    if (!found) return;
+    const { x, y } = this.drawn;
+    this.cursor.replaceChildren(svg("circle", { cx: found.across, cy: found.up, r: 4.5, stroke: found.one.colour }));
+    const text = (axis, value) => `${number(value / axis.scaled.factor, 5)} ${axis.scaled.unit}`.trim();
+    const more = found.one.notes ? `, ${found.one.notes[found.place]}` : "";
+    this.readout.textContent = `${found.one.name ? `${found.one.name}: ` : ""}${text(x, found.value)}, ${text(y, found.height)}${more}`;
+  }
+
+  leave() {
+    this.cursor?.replaceChildren();
+    this.readout.textContent = "";
+  }
+
+  click(event) {
+    if (!this.drawn) return;
+    const box = this.plot.getBoundingClientRect();
+    const { x } = this.drawn;
+    this.options.pick(Math.min(Math.max(x.value(event.clientX - box.left), x.low), x.high));
+  }
+}

@@ -1,0 +1,339 @@
+// The laboratory: sliders on one side, what the contact does on the other. All numbers come from `source`, which computes them
+// as `pulvis collide` and `pulvis probe` do.
+
+import { Chart } from "./chart.js";
+import { element, number, packed, quantity } from "./format.js";
+import { LETTERS, MOTION_LABELS, Panel } from "./panel.js";
+import { collideText, MOTIONS, pathOf, probeText } from "./scenario.js";
+
+/** How long hands must rest before limits of sticking are searched [ms]. */
+const REST = 150;
+
+export class Laboratory {
+  constructor(source) {
+    this.source = source;
+    this.panel = new Panel(this);
+    this.results = element("div", { class: "results", role: "status" });
+    this.message = element("div", { class: "message", role: "alert", hidden: true });
+    const restitution = new Chart({
+      title: "Coefficient of restitution",
+      x: { label: "impact velocity v", unit: "m/s", log: true },
+      y: { label: "restitution e", unit: "1", range: [-0.03, 1.05] },
+      pick: (velocity) => this.pickVelocity(velocity),
+    });
+    const loop = new Chart({ title: "Force over overlap of the collision", x: { label: "overlap δ", unit: "m" }, y: { label: "force f", unit: "N", include: [0] } });
+    const energies = new Chart({ title: "Energies of the collision", x: { label: "time t", unit: "s", tight: true }, y: { label: "energy", unit: "J", include: [0] } });
+    const path = new Chart({ title: "Force over overlap on a path", x: { label: "overlap δ", unit: "m" }, y: { label: "force f", unit: "N", include: [0] } });
+    this.charts = { loop, restitution, energies, path };
+    const charts = element("div", { class: "charts" }, ...Object.values(this.charts).map((chart) => chart.root));
+    this.root = element("section", { class: "laboratory", id: "laboratory" }, this.panel.root, element("div", { class: "stage" }, this.results, this.message, charts));
+    this.pending = { dirty: false, busy: false };
+  }
+
+  async open(saved) {
+    [this.laws, this.presets] = await Promise.all([this.source.laws(), this.source.presets()]);
+    if (saved) {
+      this.state = saved;
+      this.panel.build();
+      this.changed();
+      return;
+    }
+    await this.preset(this.presets.findIndex((preset) => preset.title.includes("Fig. 6")));
+  }
+
+  // What is shown
+
+  async preset(index) {
+    const preset = this.presets[index];
+    if (!preset) return;
+    await this.take(() => this.source.read(preset.text), preset.title);
+  }
+
+  async file(event) {
+    const [file] = event.target.files;
+    if (file) await this.take(async () => this.source.read(await file.text()), file.name);
+  }
+
+  /** Takes over a state that the server has read out of a file. */
+  async take(reading, title) {
+    try {
+      const state = await reading();
+      const scale = state.typical_speed;
+      const speeds = state.speeds && state.speeds[1] > state.speeds[0] * 1.5 ? state.speeds : [0.01 * scale, 10 * scale];
+      const motion = state.probe ? MOTIONS.findLast(({ place }) => state.probe.poses.some((pose) => pose[place] !== 0)).key : "overlap";
+      const contacts = state.contacts.slice(0, 2);
+      this.state = { ...state, contacts, speeds, motion, title, compare: contacts.length > 1, method: "exact" };
+      this.state.velocity = Math.min(Math.max(0.34 * scale, speeds[0]), speeds[1]);
+      this.panel.edited = 0;
+      this.panel.build();
+      this.changed();
+    } catch (error) {
+      this.complain(error);
+    }
+  }
+
+  async chooseLaw(number, role, name) {
+    const contact = this.state.contacts[number];
+    if (name === "none") {
+      delete contact.laws[role];
+    } else {
+      const entry = this.laws.find((law) => law.role === role && law.name === name);
+      const values = { ...(entry.example ?? {}) };
+      // A collision has no stages at whose start a bond could form.
+      if (role === "bond") values.form = "first-touch";
+      contact.laws[role] = { law: name, values };
+      for (const one of entry.quantities) if (one.required) this.state.quantities[one.name] ??= one.range?.low === null ? [1e-12, -1e-12] : [1e-6, 1e-6];
+    }
+    this.state.method = "exact";
+    if (role === "normal" && number === 0) await this.adopt(role, name);
+    const motion = MOTIONS.find((one) => one.role === role && role !== "normal");
+    if (motion && name !== "none") this.setMotion(motion.key);
+    this.panel.build();
+    this.changed();
+  }
+
+  /** Scales of path and velocity that show most of a law. */
+  async adopt(role, name) {
+    try {
+      const start = await this.source.start(role, name);
+      const { radius, density, bodies, temperature, probe, typical_speed: scale } = start;
+      Object.assign(this.state, { radius, density, bodies, probe, motion: "overlap" });
+      if (temperature !== null) this.state.temperature = temperature;
+      Object.assign(this.state.quantities, start.quantities);
+      this.state.speeds = [0.01 * scale, 10 * scale];
+      this.state.velocity = 0.34 * scale;
+      this.state.title = name;
+    } catch (error) {
+      this.complain(error);
+    }
+  }
+
+  setMotion(motion) {
+    const depth = Math.max(...(this.state.probe?.poses ?? [[1e-5]]).map((pose) => pose[0]));
+    this.state.motion = motion;
+    const poses = pathOf(motion, motion === "overlap" ? depth / 1.3 : depth, 0.2 * depth, 0.4 * depth);
+    const time = this.state.probe?.durations?.[0];
+    this.state.probe = { poses, durations: time ? poses.slice(1).map(() => time) : null, points: 150 };
+  }
+
+  compare(wanted) {
+    this.state.compare = wanted;
+    if (wanted && this.state.contacts.length < 2) this.state.contacts.push(structuredClone(this.state.contacts[0]));
+    this.panel.edited = wanted ? 1 : 0;
+    this.panel.build();
+    this.changed();
+  }
+
+  pickVelocity(value) {
+    this.state.velocity = Number(value.toPrecision(4));
+    this.panel.velocity.set(this.state.velocity);
+    this.changed();
+  }
+
+  // Computation: one question of a kind at a time, and always the latest state
+
+  changed() {
+    this.since ??= performance.now();
+    this.pending.dirty = true;
+    if (!this.pending.busy) this.compute();
+  }
+
+  async compute() {
+    this.pending.busy = true;
+    this.root.dataset.busy = "true";
+    while (this.pending.dirty) {
+      this.pending.dirty = false;
+      const began = this.since;
+      this.since = null;
+      await this.redraw(began);
+      if (!this.pending.dirty) await this.complete(began);
+    }
+    this.pending.busy = false;
+    this.root.dataset.busy = "false";
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => this.searchSticking(), REST);
+    history.replaceState(null, "", `#lab=${packed(this.state)}`);
+  }
+
+  async redraw(began) {
+    const { state, laws } = this;
+    const asked = [this.source.collide(collideText(state, laws), state.velocity, true), state.probe ? this.source.probe(probeText(state, laws)) : null];
+    const [collision, path] = await Promise.allSettled(asked);
+    const failures = [];
+    if (collision.status === "fulfilled") this.drawCollision(collision.value);
+    else if (this.retryByEngine(collision.reason)) return;
+    else failures.push(collision.reason.message);
+    if (path.status === "fulfilled" && path.value) this.drawPath(path.value);
+    else if (path.status === "rejected") {
+      if (this.retryInTime(path.reason)) return;
+      failures.push(path.reason.message);
+    }
+    this.complain(failures.length ? new Error([...new Set(failures)].join("\n")) : null);
+    if (began !== null) this.took = performance.now() - began;
+    this.root.dataset.took = this.took?.toFixed(1);
+    this.drawResults();
+  }
+
+  /** The collisions of the curve, once the hands have let it happen. */
+  async complete(began) {
+    try {
+      const answer = await this.source.collide(collideText(this.state, this.laws), this.state.velocity, false);
+      if (this.pending.dirty) return;
+      this.drawCollision(answer);
+      if (began !== null) this.all = performance.now() - began;
+      this.root.dataset.all = this.all?.toFixed(1);
+      this.drawResults();
+    } catch {
+      // The quick answer has told why.
+    }
+  }
+
+  /** Laws that relax with time are followed in steps. */
+  retryByEngine(error) {
+    if (this.state.method === "engine" || !error.message.includes(`method = "engine"`)) return false;
+    this.state.method = "engine";
+    this.pending.dirty = true;
+    return true;
+  }
+
+  /** Forces that depend on the rate need a path with times. */
+  retryInTime(error) {
+    const { probe } = this.state;
+    if (probe.durations || !error.message.includes("depend on the rate or on time")) return false;
+    const duration = this.collision?.contacts[0].course?.contact_duration;
+    const time = Number((duration > 0 ? duration / 2 : 1e-4).toPrecision(3));
+    probe.durations = probe.poses.slice(1).map(() => time);
+    this.panel.build();
+    this.pending.dirty = true;
+    return true;
+  }
+
+  colours(number) {
+    const style = getComputedStyle(document.documentElement);
+    return style.getPropertyValue(`--series-${LETTERS[number]}`).trim();
+  }
+
+  colour(name) {
+    return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  }
+
+  name(number, text) {
+    return this.state.compare ? `${LETTERS[number]} ${text}`.trim() : text;
+  }
+
+  drawCollision(answer) {
+    this.collision = answer;
+    const contacts = answer.contacts.map((contact, number) => ({ ...contact, colour: this.colours(number), number }));
+    const courses = contacts.filter((contact) => contact.course && !contact.course.failure);
+    const first = courses[0]?.course;
+    if (!this.state.probe && first) {
+      const poses = pathOf("overlap", first.overlap_max, 0, 0.4 * first.overlap_max);
+      this.state.probe = { poses, durations: null, points: 150 };
+      this.panel.build();
+      this.pending.dirty = true;
+    }
+    const restitution = contacts.flatMap(({ velocity, restitution, theory, colour, number }) => [
+      ...(theory.velocity.length ? [{ name: this.name(number, "closed form"), x: theory.velocity, y: theory.restitution, colour }] : []),
+      { name: this.name(number, "collisions"), x: velocity, y: restitution, colour: theory.velocity.length ? this.colour("--ink") : colour, points: true },
+    ]);
+    const line = ({ velocity, restitution, colour }) => ({ x: velocity, y: restitution, colour, dashed: false });
+    const bare = contacts.filter((contact) => !contact.theory.velocity.length).map(line);
+    this.restitution = { series: [...bare, ...restitution], markers: [{ x: this.state.velocity }] };
+    this.charts.restitution.show({ ...this.restitution, bands: this.bands });
+    this.charts.loop.show({
+      title: `Force over overlap at ${quantity(this.state.velocity, "m/s")}`,
+      series: courses.map(({ course, colour, number }) => ({ name: this.name(number, this.state.contacts[number].laws.normal.law), x: course.overlap, y: course.force, colour })),
+    });
+    this.drawEnergies(courses);
+  }
+
+  drawEnergies(courses) {
+    const kinds = [["kinetic", "--energy-kinetic"], ["available", "--energy-elastic"], ["dissipated", "--energy-lost"], ["attraction", "--energy-attraction"]];
+    const names = { kinetic: "kinetic", available: "elastic (available)", dissipated: "dissipated", attraction: "attraction" };
+    const series = courses.flatMap(({ course, number }) =>
+      kinds
+        .filter(([kind]) => kind !== "attraction" || course.attraction.some((value) => value !== 0))
+        .map(([kind, colour]) => ({ name: this.name(number, names[kind]), x: course.time, y: course[kind], colour: this.colour(colour), dashed: number > 0 })));
+    this.charts.energies.show({ title: `Energies at ${quantity(this.state.velocity, "m/s")}`, series });
+  }
+
+  drawPath(answer) {
+    const motion = this.state.motion;
+    const axes = {
+      overlap: ["overlap", "force", "overlap δ", "force f", "N"],
+      shear: ["shear", "shear_force", "displacement along the surface", "force against it", "N"],
+      roll: ["roll", "roll_torque", "rolling arc", "torque against rolling", "N m"],
+      twist: ["twist", "twist_torque", "twisting arc", "torque against twisting", "N m"],
+    };
+    const [x, y, xLabel, yLabel, unit] = axes[motion];
+    this.charts.path.show({
+      title: motion === "overlap" ? "Force over overlap on a path" : `Path: ${MOTION_LABELS[motion]}`,
+      x: { label: xLabel, unit: "m" },
+      y: { label: yLabel, unit, include: [0] },
+      series: answer.curves.map((curve, number) => ({
+        name: this.name(number, motion === "overlap" ? this.state.contacts[number].laws.normal.law : (this.state.contacts[number].laws[MOTIONS.find((one) => one.key === motion).role]?.law ?? "none")),
+        x: curve[x],
+        y: curve[y],
+        colour: this.colours(number),
+        notes: motion === "overlap" ? curve.branch : undefined,
+      })),
+    });
+  }
+
+  async searchSticking() {
+    const asked = JSON.stringify(this.state);
+    try {
+      const answer = await this.source.sticking(collideText(this.state, this.laws));
+      if (asked !== JSON.stringify(this.state)) return;
+      this.sticking = answer.contacts;
+      this.bands = answer.contacts.flatMap((contact, number) =>
+        contact.ranges.map(([low, high]) => ({ low, high, colour: this.colours(number), label: this.name(number, "sticks"), row: number })));
+    } catch {
+      this.bands = [];
+      this.sticking = null;
+    }
+    if (this.restitution) this.charts.restitution.show({ ...this.restitution, bands: this.bands });
+    this.drawResults();
+  }
+
+  drawResults() {
+    const cell = (label, value, title) => element("div", { title }, element("dt", {}, label), element("dd", {}, value));
+    const rows = (this.collision?.contacts ?? []).map((contact, number) => {
+      const { course } = contact;
+      if (!course || course.failure) return element("dl", {}, cell("collision", course?.failure ?? "–"));
+      const ranges = this.sticking?.[number];
+      const sticks = ranges?.ranges.map(([low, high]) => `${low === null ? "0" : quantity(low, "m/s", 3)} to ${high === null ? "∞" : quantity(high, "m/s", 3)}`).join(", ");
+      const theory = course.theory === null ? "" : ` (closed form ${number_(course.theory)})`;
+      const head = this.state.compare ? [element("div", { class: `swatch-${LETTERS[number]} letter` }, element("dt", {}, "contact"), element("dd", {}, LETTERS[number]))] : [];
+      return element(
+        "dl",
+        {},
+        ...head,
+        cell("restitution", `${number_(course.restitution)}${theory}`),
+        cell("outcome", course.regime === "stick" ? "sticks" : "rebounds"),
+        cell("largest overlap", quantity(course.overlap_max, "m")),
+        cell("duration", course.contact_duration === null ? "does not open" : quantity(course.contact_duration, "s")),
+        cell("dissipated", quantity(course.energy_dissipated, "J")),
+        cell("sticks between", !ranges || ranges.from === "none" ? "–" : sticks || "never", ranges ? `from: ${ranges.from}` : undefined),
+        ...(contact.failure ? [cell("note", contact.failure)] : []),
+      );
+    });
+    const took = this.took ? element("span", { class: "took" }, `redrawn in ${this.took.toFixed(0)} ms${this.all ? `, all collisions in ${this.all.toFixed(0)} ms` : ""}`) : "";
+    this.results.replaceChildren(...rows, took);
+  }
+
+  complain(error) {
+    this.message.hidden = !error;
+    this.message.textContent = error?.message ?? "";
+  }
+
+  /** Colours have changed. */
+  repaint() {
+    if (!this.state) return;
+    this.changed();
+  }
+}
+
+function number_(value) {
+  return number(value, 5);
+}

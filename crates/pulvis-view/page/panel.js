@@ -1,0 +1,186 @@
+// The controls of the laboratory: laws, parameters, bodies and motion of the contacts.
+
+import { button, choice, Quantity, tick } from "./controls.js";
+import { download, element } from "./format.js";
+import { collideText, courseText, MOTIONS, probeText, quantities, ROLES } from "./scenario.js";
+
+export const LETTERS = ["A", "B"];
+
+const TITLES = {
+  normal: "Normal force",
+  noncontact: "Attraction at a distance",
+  viscosity: "Dashpot",
+  sliding: "Sliding",
+  rolling: "Rolling",
+  torsion: "Torsion",
+  bond: "Bond",
+};
+
+/** Roles that are shown at once; the others are folded away. */
+const FIRST = ["normal", "noncontact", "viscosity"];
+
+export const MOTION_LABELS = { overlap: "along the normal", shear: "shear", roll: "roll", twist: "twist" };
+
+export class Panel {
+  constructor(lab) {
+    this.lab = lab;
+    /** The contact whose laws are shown. */
+    this.edited = 0;
+    this.root = element("div", { class: "side", role: "group", "aria-label": "Contact" });
+  }
+
+  build() {
+    const { state } = this.lab;
+    const presets = [["", "choose …"], ...this.lab.presets.map((preset, index) => [String(index), preset.title])];
+    const shown = this.lab.presets.findIndex((preset) => preset.title === state.title);
+    const file = element("input", { type: "file", accept: ".toml", hidden: true, onchange: (event) => this.lab.file(event) });
+    this.root.replaceChildren(
+      choice("Figures of papers", presets, String(shown), (index) => index && this.lab.preset(Number(index))),
+      this.contactTabs(),
+      ...this.contact(this.edited),
+      this.bodies(),
+      this.motionControls(),
+      element(
+        "div",
+        { class: "buttons" },
+        element("h3", {}, "Scenario files"),
+        button("collide.toml", () => download("collide.toml", collideText(state, this.lab.laws)), { title: "Download the scenario of the restitution curve for `pulvis collide`" }),
+        button("one-collision.toml", () => download("one-collision.toml", courseText(state, this.lab.laws)), { title: "Download the scenario of the collision that is drawn for `pulvis collide`" }),
+        button("probe.toml", () => download("probe.toml", probeText(state, this.lab.laws)), { title: "Download the scenario of the path for `pulvis probe`", disabled: !state.probe }),
+        button("open a file …", () => file.click(), { title: "Open a scenario for `pulvis collide` or `pulvis probe`" }),
+        file,
+      ),
+    );
+  }
+
+  contactTabs() {
+    const tab = (number) =>
+      button(`Contact ${LETTERS[number]}`, () => {
+        this.edited = number;
+        this.build();
+      }, { class: `tab swatch-${LETTERS[number]}`, "aria-pressed": this.edited === number });
+    const tabs = this.lab.state.compare ? [tab(0), tab(1)] : [];
+    return element("div", { class: "tabs" }, ...tabs, tick("compare two contacts", this.lab.state.compare, (wanted) => this.lab.compare(wanted)));
+  }
+
+  contact(number) {
+    const laws = this.lab.state.contacts[number].laws;
+    const section = (role) => this.role(number, role, laws[role]);
+    const folded = ROLES.filter((role) => !FIRST.includes(role));
+    const more = element("details", { open: folded.some((role) => laws[role]) }, element("summary", {}, "Sliding, rolling, torsion, bond"), ...folded.map(section));
+    return [...FIRST.map(section), more];
+  }
+
+  role(number, role, own) {
+    const entries = this.lab.laws.filter((law) => law.role === role);
+    const names = entries.map((law) => [law.name, law.name, law.summary]);
+    const root = element("section", { class: "law" }, choice(TITLES[role], names, own?.law ?? "none", (name) => this.lab.chooseLaw(number, role, name)));
+    const entry = own && entries.find((law) => law.name === own.law);
+    if (!entry) return root;
+    root.append(element("p", { class: "summary" }, entry.summary));
+    const given = [];
+    const others = [];
+    for (const parameter of entry.parameters) {
+      const isGiven = parameter.required || (own.values[parameter.name] !== undefined && own.values[parameter.name] !== parameter.default);
+      (isGiven ? given : others).push(this.parameter(number, role, own, parameter));
+    }
+    root.append(...given);
+    if (others.length) root.append(element("details", {}, element("summary", {}, `more parameters (${others.length})`), ...others));
+    const about = element("details", { class: "about" }, element("summary", {}, "equations and source"), element("pre", {}, entry.equations), element("p", {}, entry.source), element("p", {}, `Verified against: ${entry.verified}`));
+    root.append(about);
+    return root;
+  }
+
+  parameter(number, role, own, parameter) {
+    const value = own.values[parameter.name];
+    const change = (changed) => {
+      own.values[parameter.name] = changed;
+      this.lab.changed();
+    };
+    if (parameter.options) {
+      const names = parameter.options.map((option) => [option.name, option.name, option.meaning]);
+      return choice(parameter.name, names, value ?? parameter.default, change);
+    }
+    const slider = new Quantity({ ...parameter, shown: parameter.symbol || parameter.name, change }, value ?? parameter.default ?? 0);
+    if (value === undefined || value === null) {
+      slider.root.classList.add("unset");
+      slider.field.placeholder = "not given";
+      slider.field.value = "";
+    }
+    return slider.root;
+  }
+
+  bodies() {
+    const { state } = this.lab;
+    const one = (name, unit, values, meaning) =>
+      new Quantity({ name, unit, meaning, range: { low: 0, high: null }, change: (value) => {
+        values.fill(value);
+        this.lab.changed();
+      } }, values[0]).root;
+    const kinds = [["pair", "two spheres"], ["wall", "a sphere and a plane"]];
+    const own = quantities(state, this.lab.laws).map((entry) =>
+      new Quantity({ ...entry, change: (value) => {
+        // Charges of opposite signs attract.
+        const before = state.quantities[entry.name] ?? [1, 1];
+        state.quantities[entry.name] = [value, before[1] * before[0] < 0 ? -value : value];
+        this.lab.changed();
+      } }, state.quantities[entry.name]?.[0] ?? 0).root);
+    const warm = state.temperature === null || state.temperature === undefined ? [] : [
+      new Quantity({ name: "temperature", unit: "K", meaning: "temperature that laws read", range: { low: 0, high: null }, change: (value) => {
+        state.temperature = value;
+        this.lab.changed();
+      } }, state.temperature).root,
+    ];
+    return element(
+      "section",
+      { class: "law" },
+      choice("Bodies", kinds, state.bodies, (kind) => {
+        state.bodies = kind;
+        if (kind === "pair" && state.radius.length < 2) [state.radius, state.density] = [[state.radius[0], state.radius[0]], [state.density[0], state.density[0]]];
+        this.lab.changed();
+      }),
+      one("radius", "m", state.radius, "radius of the bodies"),
+      one("density", "kg/m^3", state.density, "density of the bodies"),
+      ...own,
+      ...warm,
+    );
+  }
+
+  motionControls() {
+    const { state } = this.lab;
+    this.velocity = new Quantity({ name: "velocity", unit: "m/s", meaning: "impact velocity of the collision that is drawn", range: { low: 0, high: null }, change: (value) => {
+      state.velocity = value;
+      this.lab.changed();
+    } }, state.velocity);
+    const section = element("section", { class: "law" }, element("h3", {}, "Motion"), this.velocity.root);
+    section.append(button("range of velocities around this one", () => {
+      state.speeds = [state.velocity / 50, state.velocity * 20];
+      this.lab.changed();
+    }));
+    if (!state.probe) return section;
+    const motions = MOTIONS.map(({ key }) => [key, MOTION_LABELS[key]]);
+    section.append(choice("Path", motions, state.motion, (motion) => {
+      this.lab.setMotion(motion);
+      this.build();
+      this.lab.changed();
+    }));
+    const scaled = (name, meaning, place) => {
+      const most = Math.max(...state.probe.poses.map((pose) => Math.abs(pose[place])));
+      return new Quantity({ name, unit: "m", meaning, range: { low: 0, high: null }, change: (value) => {
+        const now = Math.max(...state.probe.poses.map((pose) => Math.abs(pose[place])));
+        for (const pose of state.probe.poses) pose[place] *= value / now;
+        this.lab.changed();
+      } }, most).root;
+    };
+    section.append(scaled("depth", "largest overlap of the path; the other turning points scale along", 0));
+    const other = MOTIONS.find((one) => one.key === state.motion);
+    if (other.place > 0) section.append(scaled(MOTION_LABELS[other.key], "amplitude of the motion along the surface", other.place));
+    if (state.probe.durations) {
+      section.append(new Quantity({ name: "leg", unit: "s", meaning: "time from one turning point to the next", range: { low: 0, high: null }, change: (value) => {
+        state.probe.durations = state.probe.durations.map(() => value);
+        this.lab.changed();
+      } }, state.probe.durations[0]).root);
+    }
+    return section;
+  }
+}
