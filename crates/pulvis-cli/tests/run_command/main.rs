@@ -13,5 +13,5 @@ mod resume;
 mod run;
 mod start;
 mod study;
-mod watch;
 mod view;
+mod watch;
