@@ -11,6 +11,7 @@ mod experiments;
 mod figures;
 mod process;
 mod python;
+mod sanitizers;
 mod scenarios;
 mod table;
 mod tests;
@@ -34,6 +35,8 @@ usage: cargo xtask <task>
   scenarios            shows every good and bad scenario of the tests to the pulvis command
   loom                 tests threads in every order of their operations (loom, some switches between threads)
   miri                 looks for undefined behaviour in what threads share, where a nightly Miri is installed
+  sanitize             the unsafe code of the engine under the address sanitizer (minutes: it builds the engine with it)
+  fuzz TARGET [SECONDS] coverage-guided fuzzing of a reader for a minute or as long as told: scenario, collision, probe, mesh, import
   golden-bits          writes the bits of the runs of crates/pulvis-cli/tests/golden_bits anew
   figures              makes the pictures of README and docs anew
   book                 writes the book's pages of laws from the catalogue and the program, builds the book if mdbook is there
@@ -56,6 +59,9 @@ fn main() -> ExitCode {
         ["scenarios"] => scenarios::run(),
         ["loom"] => threads::loom(),
         ["miri"] => threads::miri(),
+        ["sanitize"] => sanitizers::run(),
+        ["fuzz", target] => sanitizers::fuzz(target, "60"),
+        ["fuzz", target, seconds] => sanitizers::fuzz(target, seconds),
         ["golden-bits"] => tests::renew_golden_bits(),
         ["figures"] => figures::run_all(),
         ["book"] => book::write(),

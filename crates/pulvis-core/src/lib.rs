@@ -21,7 +21,7 @@ use pulvis_parallel::{shared, thread_pool};
 
 pub use columns::{NameError, NamedColumn};
 pub use contacts::{
-    BondCount, BrokenBond, ContactPartner, ContactRecords, ContactTotals, ContactView, Interactions,
+    Binding, BondCount, BrokenBond, ContactPartner, ContactRecords, ContactTotals, ContactView, Interactions,
     MemoryColumn, MemoryError,
 };
 pub use ledger::Ledger;

@@ -58,12 +58,14 @@ pub enum MotionKind {
 /// together with their own motion ω² is at most N k/M + k/m. Two spheres of radius a and b that touch a plane do so at a
 /// distance of 2 √(a b) at least, so that disks of the smallest radius around all touching points are disjoint: at most
 /// A/(π a²) particles touch a face of area A, and at most all. Overlaps and edges, which this leaves out, are some percent;
-/// the least number of steps in the shortest motion leaves room for a hundredfold.
+/// the least number of steps in the shortest motion leaves room for a hundredfold. Where the sample `grows`, particles like these
+/// come in while it runs: then the face alone bounds their number, if its area is known.
 pub fn shortest_motion(
     particles: &[Particle],
     interactions: &Interactions,
     walls: &[Wall],
     background: &Background,
+    grows: bool,
 ) -> Option<ShortestMotion> {
     let mut motions = Vec::new();
     if let Some(contact) = shortest_contact(particles, interactions, walls) {
@@ -71,7 +73,7 @@ pub fn shortest_motion(
     }
     for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.present) {
         if let Some(inertia) = wall.motion.law().mass_and_damping() {
-            motions.extend(wall_motions(particles, interactions, walls, index, inertia));
+            motions.extend(wall_motions((particles, grows), interactions, walls, index, inertia));
         }
     }
     if let Some(lightest) = particles.iter().map(|particle| particle.mass).reduce(f64::min) {
@@ -94,13 +96,13 @@ fn damping_time(rate: f64) -> f64 {
 
 /// The motions of a servo wall: on its contacts, and in its damping.
 fn wall_motions(
-    particles: &[Particle],
+    (particles, grows): (&[Particle], bool),
     interactions: &Interactions,
     walls: &[Wall],
     index: usize,
     (mass, damping): (f64, f64),
 ) -> [ShortestMotion; 2] {
-    let touching = TouchingAtOnce::of(particles, interactions, walls, index);
+    let touching = TouchingAtOnce::of(particles, interactions, walls, index, grows);
     let on_contacts = PI * (mass / touching.stiffness).sqrt();
     let damping = damping_time((damping + touching.dashpot) / mass);
     let contacts = touching.contacts;
@@ -123,7 +125,13 @@ pub struct TouchingAtOnce {
 
 impl TouchingAtOnce {
     /// For the wall at `index`; see [`shortest_motion`] for the bound.
-    pub fn of(particles: &[Particle], interactions: &Interactions, walls: &[Wall], index: usize) -> Self {
+    pub fn of(
+        particles: &[Particle],
+        interactions: &Interactions,
+        walls: &[Wall],
+        index: usize,
+        grows: bool,
+    ) -> Self {
         let wall = &walls[index];
         let (mut all, mut largest) = (Self::default(), Self::default());
         for (material, bodies) in extremes_by_material(particles) {
@@ -140,6 +148,11 @@ impl TouchingAtOnce {
         }
         let smallest = particles.iter().map(|particle| particle.radius).fold(f64::INFINITY, f64::min);
         let room = wall.area.of(walls).map_or(f64::INFINITY, |area| area / (PI * smallest * smallest));
+        if grows && room.is_finite() {
+            let contacts = room.ceil();
+            let (stiffness, dashpot) = (contacts * largest.stiffness, contacts * largest.dashpot);
+            return Self { contacts, stiffness, dashpot };
+        }
         let contacts = all.contacts.min(room.ceil());
         Self {
             contacts,
@@ -266,13 +279,14 @@ mod tests {
         let mut interactions = Interactions::new(1);
         interactions.set(0, 0, model);
         let particles = vec![sphere(0, 1e-3); 100];
-        let motion_of = |mass: f64, damping: f64, area: f64| {
+        let motion = |mass: f64, damping: f64, area: f64, grows: bool| {
             let pressure = PressureRamp { from: 1.0, to: 1.0, duration: 0.0 };
             let mut lid = Wall::fixed("lid", 0, Vector3::zero(), Vector3::new(0.0, 0.0, -1.0));
             lid.motion = WallMotion::Servo(Servo { pressure, mass, damping });
             lid.area = FaceArea::Given(area);
-            shortest_motion(&particles, &interactions, &[lid], &Background::default()).unwrap()
+            shortest_motion(&particles, &interactions, &[lid], &Background::default(), grows).unwrap()
         };
+        let motion_of = |mass, damping, area| motion(mass, damping, area, false);
         // Disks of π mm² on a face of 10 π mm² and on a face with room for more than all.
         for (area, contacts) in [(10.0 * PI * 1e-6, 10.0), (1.0, 100.0)] {
             let light = motion_of(1e-7, 0.0, area * (1.0 - 1e-12));
@@ -280,6 +294,11 @@ mod tests {
             let expected = PI * (1e-7 / (contacts * 900.0)).sqrt();
             assert!((light.duration / expected - 1.0).abs() < 1e-12, "{light:?}");
         }
+        // Where more come in, only the face counts.
+        let crowded = motion(1e-7, 0.0, 1000.0 * PI * 1e-6 * (1.0 - 1e-12), true);
+        assert_eq!(crowded.kind, MotionKind::WallOnContacts { wall: 0, contacts: 1000.0 });
+        let expected = PI * (1e-7 / (1000.0 * 900.0_f64)).sqrt();
+        assert!((crowded.duration / expected - 1.0).abs() < 1e-12, "{crowded:?}");
         // With its damping and ten dashpots.
         let damped = motion_of(1e-3, 1e3, 10.0 * PI * 1e-6 * (1.0 - 1e-12));
         assert_eq!(damped.kind, MotionKind::WallDamping { wall: 0 });
@@ -294,8 +313,9 @@ mod tests {
         interactions.set(0, 0, ContactModel::frictionless(Linear::new(100.0, 0.0)));
         let particles = [sphere(0, 2e-3), sphere(0, 1e-3)];
         let light = particles[1].mass;
-        let motion =
-            |background: Background| shortest_motion(&particles, &interactions, &[], &background).unwrap();
+        let motion = |background: Background| {
+            shortest_motion(&particles, &interactions, &[], &background, false).unwrap()
+        };
         let drag = motion(Background { drag: 1.0, ..Background::default() });
         assert_eq!((drag.kind, drag.duration), (MotionKind::Drag, PI / (2.0 * (1.0 / light))));
         let turning = motion(Background { rotational_drag: 1.0, ..Background::default() });
@@ -335,6 +355,6 @@ mod tests {
     #[test]
     fn without_particles_there_is_no_contact() {
         assert_eq!(shortest_contact(&[], &Interactions::new(1), &[]), None);
-        assert_eq!(shortest_motion(&[], &Interactions::new(1), &[], &Background::default()), None);
+        assert_eq!(shortest_motion(&[], &Interactions::new(1), &[], &Background::default(), false), None);
     }
 }

@@ -4,8 +4,13 @@
 
 mod common;
 
-use common::{advance, cube_of_walls, gravity, implosion, start, viscous_luding};
-use pulvis_core::{ContactPartner, ContactTotals, Simulation};
+use common::{
+    RADIUS, advance, cube_of_walls, elastic, gravity, implosion, luding, setup, sphere, start, vector,
+    viscous_luding,
+};
+use pulvis_contact::theory::JkrPair;
+use pulvis_contact::{ContactModel, Jkr, Normal};
+use pulvis_core::{Binding, ContactPartner, ContactTotals, ContactView, Simulation};
 
 /// The totals by a look at one contact after the other.
 fn looked_at(simulation: &Simulation) -> ContactTotals {
@@ -74,4 +79,59 @@ fn vectors_stand_where_their_layout_says() {
             assert_eq!(expected.wrapping_add(2), &raw const vectors[row].z);
         }
     }
+}
+
+/// What holds each contact of two equal spheres, at this overlap, with a dashpot; the second moves away at `speed`.
+fn bindings(model: ContactModel, overlap: f64, speed: f64) -> Vec<Binding> {
+    let first = sphere(vector(0.0, 0.0, 0.0), vector(0.0, 0.0, 0.0), RADIUS);
+    let second = sphere(vector(2.0 * RADIUS - overlap, 0.0, 0.0), vector(speed, 0.0, 0.0), RADIUS);
+    let mut simulation = start(setup(vec![first, second], model), 100.0);
+    // The first force makes the contact one that acts.
+    simulation.step().unwrap();
+    let see = |seen: &mut Vec<Binding>, _: &ContactView<'_>, binding: &Binding| seen.push(*binding);
+    simulation.gather_bindings(see).into_iter().flatten().collect()
+}
+
+#[test]
+fn an_adhesive_pair_is_bound_until_it_moves_with_the_energy_that_breaks_its_contact() {
+    // From equilibrium to separation, by quadrature of the law: 11.6946 (Γ⁵ R⁴/E*²)^(1/3).
+    let (modulus, adhesion) = (1e8, 0.1);
+    let theory = JkrPair::new(modulus, adhesion, 0.5 * RADIUS).unwrap();
+    let rest = theory.overlap(theory.unloaded_radius());
+    let ratio = adhesion.powi(5) * (0.5 * RADIUS).powi(4) / (modulus * modulus);
+    let expected = 11.6946 * ratio.cbrt();
+    let model = || ContactModel::frictionless(Jkr::new(modulus, adhesion));
+    let [still] = bindings(model(), rest, 0.0)[..] else { panic!("one contact") };
+    assert!((still.work_to_part / expected - 1.0).abs() < 2e-3, "{still:?} {expected:e}");
+    let mass = sphere(vector(0.0, 0.0, 0.0), vector(0.0, 0.0, 0.0), RADIUS).mass;
+    // The reduced mass is half of it.
+    let escape = (4.0 * expected / mass).sqrt();
+    for (share, bound) in [(0.95, true), (1.05, false)] {
+        let [moving] = bindings(model(), rest, share * escape)[..] else { panic!("one contact") };
+        assert_eq!(moving.is_bound(), bound, "{share}: {moving:?}");
+    }
+}
+
+#[test]
+fn elastic_grains_are_never_bound() {
+    let [pressed] = bindings(elastic(), 1e-5, 0.0)[..] else { panic!("one contact") };
+    assert!(pressed.work_to_part == 0.0 && !pressed.is_bound(), "{pressed:?}");
+}
+
+#[test]
+fn a_luding_contact_is_held_by_its_adhesive_triangle() {
+    // Virgin loading to δ_max below the plastic limit: k2 = k1 + (kp − k1) δ_max/δ_p, δ_0 = (1 − k1/k2) δ_max, and on the way
+    // out the branch −kc δ is met at δ_min = (k2 − k1)/(k2 + kc) δ_max. What is left beyond δ_0 is kc δ_min δ_0/2, less what the
+    // compressed contact gives back, k1² δ_max²/(2 k2).
+    let Normal::Luding(law) = luding().normal else { panic!("a Luding contact") };
+    let limit = law.kp / (law.kp - law.k1) * law.phi_f * RADIUS;
+    let deepest = 0.6 * limit;
+    let stiffness = law.k1 + (law.kp - law.k1) * deepest / limit;
+    let (rest, least) =
+        ((1.0 - law.k1 / stiffness) * deepest, (stiffness - law.k1) / (stiffness + law.kc) * deepest);
+    let held = 0.5 * law.kc * least * rest;
+    let driven = 0.5 * (law.k1 * deepest).powi(2) / stiffness;
+    let [seen] = bindings(luding(), deepest, 0.0)[..] else { panic!("one contact") };
+    let expected = held - driven;
+    assert!(expected > 0.0 && (seen.work_to_part / expected - 1.0).abs() < 2e-2, "{seen:?} {expected:e}");
 }

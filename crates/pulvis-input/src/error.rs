@@ -69,6 +69,9 @@ pub struct InputError {
 }
 
 impl InputError {
+    /// The longest text of a problem that is told in full [characters].
+    const LONGEST: usize = 1500;
+
     /// A mistake of the file as a whole.
     pub(crate) fn of_file(file: &str, problem: Problem) -> Self {
         Self { file: file.to_owned(), place: None, key: String::new(), problem, help: None, replaced: false }
@@ -83,7 +86,8 @@ impl InputError {
         if !self.key.is_empty() {
             line.push_str(&format!("{}: ", shortened(&self.key, 120)));
         }
-        line.push_str(&self.problem.to_string());
+        // Texts of the file may be in it.
+        line.push_str(&shortened(&self.problem.to_string(), Self::LONGEST));
         line
     }
 }

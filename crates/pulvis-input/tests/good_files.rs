@@ -68,7 +68,7 @@ fn what_is_left_out_has_its_default() {
         snapshots: Snapshots::StageEnds,
         files: Vec::new(),
         plots: true,
-        clusters: false,
+        clusters: ClusterRule::Never,
         checkpoints: Some(CheckpointPlan::default()),
         dimensionless: None,
     };
@@ -383,6 +383,6 @@ fn inlets_and_outlets_have_what_their_keys_say_and_regions_end_with_the_box() {
     );
     assert_eq!(scenario.stages[1].until.passed.map(|rule| rule.opening), Some(2));
     // In the hands of another run, what is open stays open and what is shut stays shut.
-    let later = scenario.as_in_stage(1);
+    let later = scenario.as_in_stage(1, None);
     assert!(!later.inlets[0].schedule.takes_in("anything") && later.inlets[1].schedule.takes_in("anything"));
 }

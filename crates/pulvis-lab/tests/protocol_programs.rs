@@ -5,8 +5,11 @@
 
 mod protocol_scenarios;
 
-use protocol_scenarios::{Series, run, scenario};
-use pulvis_lab::protocol::Session;
+use std::fs;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use protocol_scenarios::{Series, options, run, run_with, scenario};
+use pulvis_lab::protocol::{Session, load_scenario};
 
 /// A grain of 1 g on a plate, damped, whose spring is stiffened from 100 to 400 N/m within a second; then at rest.
 const STIFFENING: &str = r#"
@@ -91,6 +94,36 @@ fn programs_go_the_same_way_step_by_step() {
         let written = series.column(name);
         assert_eq!(written.last().map(|last| last.to_bits()), Some(value.to_bits()), "{name}");
     }
+}
+
+#[test]
+fn a_branch_from_the_middle_of_a_program_has_the_values_of_that_instant() {
+    let place = tempfile::tempdir().unwrap();
+    let text = format!("{STIFFENING}plots = false\nvtk = false\ncheckpoints = {{ interval = \"1 h\" }}\n");
+    let stop = AtomicBool::new(false);
+    // At the first look into the second stage.
+    let mut watch = |progress: &pulvis_lab::protocol::Progress| {
+        stop.fetch_or(progress.ending.is_some(), Ordering::Relaxed);
+    };
+    let stopped = run_with(&scenario(&text), &options(&place.path().join("run")), &stop, &mut watch).unwrap();
+    assert!(stopped.interrupted() && stopped.stages.len() == 2);
+    let file = place.path().join("branch.toml");
+    fs::write(
+        &file,
+        "start_from = { run = \"run\" }\n[[stages]]\nname = \"on\"\nuntil = { time = \"1 ms\" }\n",
+    )
+    .unwrap();
+    let branch = load_scenario(&file, &[]).unwrap();
+    let text = branch.to_resolved_toml("");
+    let line = text.lines().find(|line| line.starts_with("normal = ") || line.starts_with("k = ")).unwrap();
+    let stiffness: f64 = line.split("k = \"").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    let elapsed = stopped.stages[1].time - stopped.stages[0].time;
+    // Straight from 100 to 400 N/m within a second, in 400 updates.
+    let expected = 100.0 + 300.0 * elapsed;
+    assert!(
+        stiffness <= expected + 1e-6 && stiffness > expected - 300.0 / 400.0,
+        "{line}, after {elapsed} s"
+    );
 }
 
 /// Gravity is a vector; one component of it may be led.

@@ -2,8 +2,8 @@
 
 use pulvis_math::Vector3;
 
-use super::meridian::Meridian;
-use super::{EdgedShape, FeatureSurface, Shape, check_axis, check_length};
+use super::meridian::{Meridian, Revolved};
+use super::{Shape, check_axis, check_length};
 
 /// A cone or the frustum of a cone, a thin shell with particles inside and outside. The axis goes through the wall's
 /// reference point, which is the middle of the first end.
@@ -22,7 +22,7 @@ pub struct Cone {
     pub height: f64,
 }
 
-impl Cone {
+impl Revolved for Cone {
     fn meridian(&self) -> Meridian {
         let [first, second] = self.radii;
         Meridian::between(self.axis, [first, 0.0], [second, self.height], true)
@@ -50,23 +50,5 @@ impl Shape for Cone {
             return Ok(());
         }
         Err(format!("its radii are {first} m and {second} m, not lengths of which one is greater than zero"))
-    }
-}
-
-impl EdgedShape for Cone {
-    fn surface_of(&self, feature: u32, centre: Vector3, limit: f64) -> Option<FeatureSurface> {
-        self.meridian().surface_of(feature, centre, limit)
-    }
-
-    fn features_near(&self, centre: Vector3, limit: f64, found: &mut Vec<(u32, f64)>) {
-        self.meridian().features_near(centre, limit, found);
-    }
-
-    fn distance(&self, centre: Vector3) -> f64 {
-        self.meridian().distance(centre)
-    }
-
-    fn outline(&self) -> Vec<[Vector3; 2]> {
-        self.meridian().outline()
     }
 }

@@ -2,8 +2,8 @@
 
 use pulvis_math::Vector3;
 
-use super::meridian::Meridian;
-use super::{EdgedShape, FeatureSurface, Shape, check_axis, check_length};
+use super::meridian::{Meridian, Revolved};
+use super::{Shape, check_axis, check_length};
 
 /// A flat disk without thickness around the wall's reference point, with particles on both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub struct Disk {
     pub radius: f64,
 }
 
-impl Disk {
+impl Revolved for Disk {
     fn meridian(&self) -> Meridian {
         Meridian::between(self.normal, [0.0, 0.0], [self.radius, 0.0], false)
     }
@@ -40,23 +40,5 @@ impl Shape for Disk {
     fn check(&self, _largest_radius: f64) -> Result<(), String> {
         check_axis(self.normal)?;
         check_length("radius", self.radius)
-    }
-}
-
-impl EdgedShape for Disk {
-    fn surface_of(&self, feature: u32, centre: Vector3, limit: f64) -> Option<FeatureSurface> {
-        self.meridian().surface_of(feature, centre, limit)
-    }
-
-    fn features_near(&self, centre: Vector3, limit: f64, found: &mut Vec<(u32, f64)>) {
-        self.meridian().features_near(centre, limit, found);
-    }
-
-    fn distance(&self, centre: Vector3) -> f64 {
-        self.meridian().distance(centre)
-    }
-
-    fn outline(&self) -> Vec<[Vector3; 2]> {
-        self.meridian().outline()
     }
 }

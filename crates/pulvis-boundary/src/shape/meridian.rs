@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use pulvis_math::{Vector3, elementary};
 
-use super::{FeatureSurface, MOST_HOLLOW, across};
+use super::{EdgedShape, FeatureSurface, MOST_HOLLOW, Shape, across};
 
 /// The part of the surface that is nearest to a centre.
 const NEAR: u32 = 0;
@@ -33,6 +33,30 @@ pub(super) struct Meridian {
     pub(super) length: f64,
     /// Whether spheres touch the part across the axis.
     pub(super) has_far_side: bool,
+}
+
+/// A shape that a straight line makes when it goes around an axis.
+pub(super) trait Revolved: Shape {
+    /// The line.
+    fn meridian(&self) -> Meridian;
+}
+
+impl<S: Revolved> EdgedShape for S {
+    fn surface_of(&self, feature: u32, centre: Vector3, limit: f64) -> Option<FeatureSurface> {
+        self.meridian().surface_of(feature, centre, limit)
+    }
+
+    fn features_near(&self, centre: Vector3, limit: f64, found: &mut Vec<(u32, f64)>) {
+        self.meridian().features_near(centre, limit, found);
+    }
+
+    fn distance(&self, centre: Vector3) -> f64 {
+        self.meridian().distance(centre)
+    }
+
+    fn outline(&self) -> Vec<[Vector3; 2]> {
+        self.meridian().outline()
+    }
 }
 
 /// The nearest point of the line.
@@ -95,7 +119,9 @@ impl Meridian {
         // Near the axis the direction of the normal changes without bound; so fast no spring can turn.
         let least = 1e-6 * distance;
         let around = if signed.abs() > least { away / signed } else { 0.0 };
-        let is_at_end = foot.along <= 0.0 || foot.along >= self.length;
+        // The middle of a disk is an end of the line, but no rim.
+        let is_middle = self.is_flat() && self.start[0] <= 0.0;
+        let is_at_end = foot.along <= 0.0 && !is_middle || foot.along >= self.length;
         let over_rim = if is_at_end && distance > 0.0 { 1.0 / distance } else { 0.0 };
         Some(FeatureSurface {
             normal: outwards * away + self.axis * up,

@@ -2,8 +2,8 @@
 
 use pulvis_math::Vector3;
 
-use super::meridian::Meridian;
-use super::{EdgedShape, FeatureSurface, Shape, check_axis, check_length};
+use super::meridian::{Meridian, Revolved};
+use super::{Shape, check_axis, check_length};
 
 /// A plane without end and without thickness, with a circular hole around the wall's reference point: the floor of a
 /// hopper and its orifice. Particles are on both sides.
@@ -15,7 +15,7 @@ pub struct PlaneWithHole {
     pub radius: f64,
 }
 
-impl PlaneWithHole {
+impl Revolved for PlaneWithHole {
     fn meridian(&self) -> Meridian {
         Meridian {
             axis: self.normal,
@@ -47,23 +47,5 @@ impl Shape for PlaneWithHole {
     fn check(&self, _largest_radius: f64) -> Result<(), String> {
         check_axis(self.normal)?;
         check_length("radius", self.radius)
-    }
-}
-
-impl EdgedShape for PlaneWithHole {
-    fn surface_of(&self, feature: u32, centre: Vector3, limit: f64) -> Option<FeatureSurface> {
-        self.meridian().surface_of(feature, centre, limit)
-    }
-
-    fn features_near(&self, centre: Vector3, limit: f64, found: &mut Vec<(u32, f64)>) {
-        self.meridian().features_near(centre, limit, found);
-    }
-
-    fn distance(&self, centre: Vector3) -> f64 {
-        self.meridian().distance(centre)
-    }
-
-    fn outline(&self) -> Vec<[Vector3; 2]> {
-        self.meridian().outline()
     }
 }

@@ -2,8 +2,8 @@
 
 use pulvis_math::Vector3;
 
-use super::meridian::Meridian;
-use super::{EdgedShape, FeatureSurface, Shape, check_axis, check_length};
+use super::meridian::{Meridian, Revolved};
+use super::{Shape, check_axis, check_length};
 
 /// A circular cylinder with two open ends, a thin shell with particles inside and outside. The axis goes through the
 /// wall's reference point, which is the middle of the first end. For a [`Cylinder`](super::Cylinder) without ends the
@@ -19,7 +19,7 @@ pub struct Tube {
     pub length: f64,
 }
 
-impl Tube {
+impl Revolved for Tube {
     fn meridian(&self) -> Meridian {
         Meridian::between(self.axis, [self.radius, 0.0], [self.radius, self.length], true)
     }
@@ -42,23 +42,5 @@ impl Shape for Tube {
         check_axis(self.axis)?;
         check_length("radius", self.radius)?;
         check_length("length", self.length)
-    }
-}
-
-impl EdgedShape for Tube {
-    fn surface_of(&self, feature: u32, centre: Vector3, limit: f64) -> Option<FeatureSurface> {
-        self.meridian().surface_of(feature, centre, limit)
-    }
-
-    fn features_near(&self, centre: Vector3, limit: f64, found: &mut Vec<(u32, f64)>) {
-        self.meridian().features_near(centre, limit, found);
-    }
-
-    fn distance(&self, centre: Vector3) -> f64 {
-        self.meridian().distance(centre)
-    }
-
-    fn outline(&self) -> Vec<[Vector3; 2]> {
-        self.meridian().outline()
     }
 }

@@ -51,6 +51,7 @@ const TEMPLATES: &[Template] = templates![
     "heap" for "run",
     "chute" for "run",
     "cold-spray" for "run",
+    "aggregates" for "run",
 ];
 
 impl Template {

@@ -1,5 +1,6 @@
 //! The contact table: neighbour pairs in blocks of eight, and the memory of each contact.
 
+mod binding;
 mod block;
 mod bonds;
 mod chunk;
@@ -16,6 +17,9 @@ mod table;
 mod totals;
 mod view;
 
+pub use binding::Binding;
+pub(crate) use binding::view_bindings;
+pub(crate) use block::ContactGroup;
 pub(crate) use bonds::BrokenBonds;
 pub use bonds::{BondCount, BrokenBond};
 pub(crate) use chunk::Chunk;

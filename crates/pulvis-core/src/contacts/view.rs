@@ -88,7 +88,7 @@ pub(crate) fn view_contacts(views: Views<'_>, see: &mut dyn FnMut(&ContactView<'
 
 /// The response of a contact of a group over a step of zero duration; `columns` are its memory. As that of
 /// [`ContactModel::respond`](pulvis_contact::ContactModel::respond), which lays the memory out anew for every call.
-fn respond(group: &ContactGroup, seen: &Seen, columns: &mut [f64]) -> ContactResponse<f64> {
+pub(super) fn respond(group: &ContactGroup, seen: &Seen, columns: &mut [f64]) -> ContactResponse<f64> {
     let (laws, slots) = (&group.model.laws, *group.layout.slots());
     let (time_step, temperature) = (0.0, ROOM_TEMPERATURE);
     let inputs = ContactInputs { pair: &seen.pair, motion: &seen.motion, time_step, temperature };
@@ -127,7 +127,7 @@ impl<'a> Views<'a> {
         Some(self.geometry(first, block, lane)?.motion.overlap)
     }
 
-    fn look<'b>(
+    pub(super) fn look<'b>(
         &self,
         block: usize,
         lane: usize,
@@ -161,7 +161,7 @@ impl<'a> Views<'a> {
     }
 
     /// Position and motion of the first body, in row `i`, relative to the second one.
-    fn geometry(&self, i: usize, block: usize, lane: usize) -> Option<Seen> {
+    pub(super) fn geometry(&self, i: usize, block: usize, lane: usize) -> Option<Seen> {
         let particles = self.particles;
         let velocity = |row: usize| particles.velocity[row].vector;
         let angular_velocity = |row: usize| particles.angular_velocity[row].vector;
@@ -228,9 +228,9 @@ impl<'a> Views<'a> {
 }
 
 /// One contact before its response.
-struct Seen {
-    motion: ContactKinematics<f64>,
-    pair: Pair<f64>,
+pub(super) struct Seen {
+    pub(super) motion: ContactKinematics<f64>,
+    pub(super) pair: Pair<f64>,
     first: ParticleId,
     second: ContactPartner,
     centre_first: Vector3,

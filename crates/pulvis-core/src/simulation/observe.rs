@@ -3,7 +3,9 @@
 use pulvis_math::max_or_nan;
 
 use super::Simulation;
-use crate::contacts::{BondCount, Chunk, ContactTotals, ContactView, Views, view_contacts};
+use crate::contacts::{
+    Binding, BondCount, Chunk, ContactGroup, ContactTotals, ContactView, Views, view_bindings, view_contacts,
+};
 use crate::ledger::Ledger;
 use crate::walls::WallNow;
 use pulvis_boundary::Background;
@@ -106,7 +108,23 @@ impl Simulation {
         self.gather_contacts_of_rows(|gathered, contact, _| see(gathered, contact))
     }
 
-    /// The same with the rows of the bodies; of a wall the second one means nothing.
+    /// The same with what holds each contact together. Some hundred evaluations of the laws for each.
+    pub fn gather_bindings<T: Default + Send + Sync>(
+        &self,
+        see: impl Fn(&mut T, &ContactView<'_>, &Binding) + Sync,
+    ) -> Vec<T> {
+        let (walls, chunks) = (self.walls_at_rest(), self.contacts.chunks());
+        let mut parts: Vec<T> = Vec::new();
+        parts.resize_with(chunks.len(), T::default);
+        self.pool.for_each(&mut parts, |number, part| {
+            for group in &chunks[number].groups {
+                view_bindings(self.views(group, &walls), &mut |contact, binding| see(part, contact, binding));
+            }
+        });
+        parts
+    }
+
+    /// The same as [`gather_contacts`](Self::gather_contacts) with the rows of the bodies; of a wall the second one means nothing.
     pub(super) fn gather_contacts_of_rows<T: Default + Send + Sync>(
         &self,
         see: impl Fn(&mut T, &ContactView<'_>, [usize; 2]) + Sync,
@@ -127,8 +145,12 @@ impl Simulation {
         see: &mut dyn FnMut(&ContactView<'_>, [usize; 2]),
     ) {
         for group in &chunk.groups {
-            let (particles, images, rate) = (&self.particles, self.domain.images(), self.cell.rate);
-            view_contacts(Views { group, particles, images, rate, walls }, see);
+            view_contacts(self.views(group, walls), see);
         }
+    }
+
+    fn views<'a>(&'a self, group: &'a ContactGroup, walls: &'a [WallNow]) -> Views<'a> {
+        let (particles, images, rate) = (&self.particles, self.domain.images(), self.cell.rate);
+        Views { group, particles, images, rate, walls }
     }
 }

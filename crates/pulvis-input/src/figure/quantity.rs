@@ -111,6 +111,12 @@ pub const OF_RUNS: &[Quantity] = &[
     quantity("solid_fraction", "solid fraction", "φ", "1"),
     quantity("clusters", "pieces", "", "1"),
     quantity("largest_cluster", "particles of the largest piece", "", "1"),
+    quantity("second_cluster", "particles of the second largest piece", "", "1"),
+    quantity("monomers", "single particles", "", "1"),
+    quantity("mean_cluster", "mean size of the piece of a particle", "", "1"),
+    quantity("gyration_radius", "radius of gyration of the largest piece", "R_{g}", "m"),
+    quantity("deposited", "deposited particles", "", "1"),
+    quantity("deposited_mass", "deposited mass", "", "kg"),
 ];
 
 /// Columns of observers that have names of their own on axes; `_` and the name of the observer follow.

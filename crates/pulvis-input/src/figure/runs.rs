@@ -51,7 +51,7 @@ pub(super) fn plan(
         match (&start, parent) {
             (Some((_, place)), Some(parent)) => {
                 let last = parent.scenario.stages.len().saturating_sub(1);
-                let state = parent.scenario.as_in_stage(last).to_resolved_toml("");
+                let state = parent.scenario.as_in_stage(last, None).to_resolved_toml("");
                 let base = Document::from_str("the run that it starts from", &state)?;
                 own = own.with_missing_from(&base, &["title", "start_from", "stages", "output"], place);
             }

@@ -56,6 +56,7 @@ mod placement;
 mod programs;
 mod radius;
 mod region;
+mod resolve;
 mod resolved;
 
 mod stages;
@@ -83,7 +84,7 @@ pub use mesh_file::MeshFileError;
 pub use observers::{ObservedQuantity, Observer};
 pub use openings::Schedule;
 pub use outlets::{Outlet, OutletZone};
-pub use output::{CheckpointPlan, Dimensionless, Interval, OutputPlan, Snapshots};
+pub use output::{CheckpointPlan, ClusterRule, Dimensionless, Interval, OutputPlan, Snapshots};
 pub use output_files::{
     CONTACT_FIELDS, ContactFields, DEFAULT_CONTACT_FIELDS, DEFAULT_PARTICLE_FIELDS, FileFormat, OutputFiles,
     PARTICLE_FIELDS,
@@ -221,8 +222,9 @@ impl Scenario {
     }
 
     /// The scenario as it holds in one of its stages, without stages: contacts, background and time step are what earlier
-    /// stages and this one have made of them; programs have come to their end. `index` is that of a stage.
-    pub fn as_in_stage(&self, index: usize) -> Self {
+    /// stages and this one have made of them. Programs of the stage stand at an update, or have come to their end where `update` is
+    /// `None`. `index` is that of a stage.
+    pub fn as_in_stage(&self, index: usize, update: Option<usize>) -> Self {
         let mut scenario = Self { stages: Vec::new(), ..self.clone() };
         if let Some(stage) = self.stages.get(index) {
             // The names of stages mean nothing elsewhere: what is open stays open, what is shut stays shut.
@@ -230,8 +232,17 @@ impl Scenario {
             for schedule in inlets.chain(scenario.outlets.iter_mut().map(|outlet| &mut outlet.schedule)) {
                 schedule.stages = (!schedule.takes_in(&stage.name)).then(Vec::new);
             }
-            scenario.contacts = stage.last_contacts().to_vec();
-            (scenario.background, scenario.time) = (stage.last_background(), stage.time);
+            scenario.time = stage.time;
+            let programs = stage.programs.as_ref().zip(update);
+            match programs.and_then(|(programs, update)| programs.states.get(update)) {
+                Some(state) => {
+                    (scenario.contacts, scenario.background) = (state.contacts.clone(), state.background);
+                }
+                None => {
+                    scenario.contacts = stage.last_contacts().to_vec();
+                    scenario.background = stage.last_background();
+                }
+            }
         }
         scenario
     }

@@ -105,6 +105,10 @@ pub(super) fn read_name(table: &mut TableReader<'_>, names: &mut Vec<String>) ->
         let found = format!("{name:?} is no name for columns");
         return Err(table.refuse("name", Problem::rule(found, "only letters, digits and underscores")));
     }
+    if name.contains("_class_") {
+        let found = format!("{name:?} has `_class_` in it, as columns of classes of size have");
+        return Err(table.refuse("name", Problem::rule(found, "a name without `_class_`")));
+    }
     if names.contains(&name) {
         let found = format!("two inlets or outlets are called {name:?}");
         return Err(table.refuse("name", Problem::rule(found, "another name for each of them")));

@@ -23,12 +23,24 @@ pub struct OutputPlan {
     pub files: Vec<OutputFiles>,
     /// Whether plots are drawn.
     pub plots: bool,
-    /// Whether the time series tells which particles hang together.
-    pub clusters: bool,
+    /// Whether the time series tells which particles hang together, and what joins them.
+    pub clusters: ClusterRule,
     /// When the state is written, so that the run can be resumed; `None`: never.
     pub checkpoints: Option<CheckpointPlan>,
     /// The scales of the dimensionless columns, if these are wanted.
     pub dimensionless: Option<Dimensionless>,
+}
+
+/// What joins particles to groups in the time series.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ClusterRule {
+    /// Nothing: the time series does not tell groups.
+    #[default]
+    Never,
+    /// Contacts that act.
+    Acting,
+    /// Contacts that act and whose bodies are not on their way apart: see `ContactView::is_bound` of the engine.
+    Bound,
 }
 
 /// How often something happens.
@@ -100,7 +112,7 @@ pub(super) fn read_output(
         snapshots: Snapshots::StageEnds,
         files: Vec::new(),
         plots: true,
-        clusters: false,
+        clusters: ClusterRule::Never,
         checkpoints: Some(CheckpointPlan::default()),
         dimensionless: None,
     };
@@ -129,7 +141,7 @@ pub(super) fn read_output(
     let snapshots = table.value("vtk").map(|value| read_snapshots(&value)).transpose();
     let files = read_output_files(&mut table, sample);
     let plots = table.or("plots", Boolean, default.plots);
-    let clusters = table.or("clusters", Boolean, default.clusters);
+    let clusters = table.or("clusters", ClusterShape, default.clusters);
     let checkpoints = table.value("checkpoints").map(|value| read_checkpoints(&value)).transpose();
     let dimensionless = table.optional_table("dimensionless").and_then(|scales| match scales {
         Some(scales) => read_dimensionless(scales, stages).map(Some),
@@ -190,6 +202,26 @@ impl crate::shape::Shape for CheckpointShape {
     fn read(&self, value: &ValueReader<'_>) -> Result<bool, Reported> {
         match value.raw() {
             crate::value::Value::Boolean(wanted) => Ok(*wanted),
+            _ => Err(value.wrong_type(&self.describe())),
+        }
+    }
+}
+
+/// `true`, `false` or `"bound"`, as the message names it.
+struct ClusterShape;
+
+impl crate::shape::Shape for ClusterShape {
+    type Output = ClusterRule;
+
+    fn describe(&self) -> String {
+        "false, true or \"bound\"".to_owned()
+    }
+
+    fn read(&self, value: &ValueReader<'_>) -> Result<ClusterRule, Reported> {
+        match value.raw() {
+            crate::value::Value::Boolean(true) => Ok(ClusterRule::Acting),
+            crate::value::Value::Boolean(false) => Ok(ClusterRule::Never),
+            crate::value::Value::Text(word) if word == "bound" => Ok(ClusterRule::Bound),
             _ => Err(value.wrong_type(&self.describe())),
         }
     }

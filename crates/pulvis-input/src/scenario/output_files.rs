@@ -77,7 +77,7 @@ impl FileFormat {
 }
 
 /// What can be written of particles, beside the columns of `[particles.columns]`.
-pub const PARTICLE_FIELDS: [&str; 13] = [
+pub const PARTICLE_FIELDS: [&str; 15] = [
     "id",
     "type",
     "radius",
@@ -91,6 +91,8 @@ pub const PARTICLE_FIELDS: [&str; 13] = [
     "kinetic_translation",
     "kinetic_rotation",
     "stored_energy",
+    "cluster",
+    "cluster_size",
 ];
 
 /// What is written of particles where nothing is said: the first of [`PARTICLE_FIELDS`].

@@ -211,7 +211,8 @@ fn complete(
 ) -> Result<StopRules, Reported> {
     if until.is_empty() {
         let durations = controls.iter().filter_map(|(_, control)| control.duration());
-        let longest = durations.reduce(f64::max);
+        // A fraction of a cycle may be too short for a number.
+        let longest = durations.filter(|duration| *duration > 0.0).reduce(f64::max);
         until.time = Some(longest.ok_or_else(|| {
             let found = "the stage has no end";
             let expected =

@@ -12,23 +12,19 @@ use super::output::read_output;
 use super::output_files::Sample;
 use super::particles::{PlacedGroup, read_particles};
 use super::placement::check_placement;
-use super::programs::{ProgramState, Programs};
-use super::stages::{PlannedStage, Stage, read_stages};
+use super::resolve::resolve;
+use super::stages::{PlannedStage, read_stages};
 use super::start::read_start;
-use super::switches::switched;
 use super::time::{TimeStep, read_time};
 use super::walls::{Walls, read_walls};
 use super::{Scenario, ScenarioSource};
 use crate::context::Reported;
 use crate::document::Document;
 use crate::error::InputErrors;
-use crate::problem::Problem;
 use crate::reader::TableReader;
 use crate::shape::{Integer, Text};
 use crate::surroundings::{needs_temperature, read_temperature};
 use pulvis_boundary::{Background, TemperatureProgram};
-use pulvis_contact::bond::Form;
-use pulvis_math::Vector3;
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
@@ -188,13 +184,13 @@ fn material_use(walls: &Walls, groups: &[PlacedGroup], openings: &Openings) -> M
 }
 
 /// What stages can switch.
-struct Changing {
-    contacts: Vec<Contact>,
-    background: Background,
+pub(super) struct Changing {
+    pub(super) contacts: Vec<Contact>,
+    pub(super) background: Background,
 }
 
 impl Changing {
-    fn read(
+    pub(super) fn read(
         root: &mut TableReader<'_>,
         materials: &[Material],
         used: Option<&MaterialUse>,
@@ -209,17 +205,12 @@ impl Changing {
     }
 }
 
-/// Whether bonds of a contact form at the start of stages that say so.
-fn forms_bonds_at_start(contact: &Contact) -> bool {
-    contact.model.laws.bond.is_some_and(|bond| bond.formation.form == Form::StageStart)
-}
-
 /// What a scenario gives to laws that ask for more than the bodies and their motion.
 #[derive(Clone, Copy)]
-struct Given<'a> {
+pub(super) struct Given<'a> {
     /// The further quantities of all groups and inlets, with the key that they stand under.
-    columns: &'a [(&'a str, &'a [ParticleColumn])],
-    temperature: Option<&'a TemperatureProgram>,
+    pub(super) columns: &'a [(&'a str, &'a [ParticleColumn])],
+    pub(super) temperature: Option<&'a TemperatureProgram>,
 }
 
 impl Given<'_> {
@@ -237,112 +228,4 @@ impl Given<'_> {
         }
         Ok(())
     }
-}
-
-/// What stages can switch, as it stands in a document whose rest has been checked in the first walk.
-fn read_changing(
-    document: &Document,
-    scenario: &Scenario,
-    used: &MaterialUse,
-    help: &str,
-) -> Result<Changing, InputErrors> {
-    let groups = scenario.particles.iter().map(|group| ("particles", &group.columns[..]));
-    let inlets = scenario.inlets.iter().map(|inlet| ("inlets", &inlet.columns[..]));
-    let columns: Vec<_> = groups.chain(inlets).collect();
-    let given = Given { columns: &columns, temperature: scenario.temperature.as_ref() };
-    let read = document.read(|mut root| {
-        let changing = Changing::read(&mut root, &scenario.materials, Some(used), Some(given));
-        for key in root.keys() {
-            root.value(key);
-        }
-        root.finish();
-        changing
-    });
-    read.map_err(|errors| errors.with_help(help))
-}
-
-/// The stages with everything that holds in them.
-fn resolve(
-    document: &Document,
-    scenario: &Scenario,
-    used: &MaterialUse,
-    planned: Vec<PlannedStage>,
-) -> Result<Vec<Stage>, InputErrors> {
-    let mut document = document.clone();
-    let mut stages: Vec<Stage> = Vec::with_capacity(planned.len());
-    let mut deforms = false;
-    for stage in planned {
-        let PlannedStage {
-            name,
-            until,
-            remove,
-            form_bonds,
-            controls,
-            cell,
-            switches,
-            programs,
-            time,
-            place: stage_place,
-        } = stage;
-        let changing = if switches.is_empty() {
-            let before = stages.last();
-            Changing {
-                contacts: before.map_or(&scenario.contacts[..], |stage| stage.last_contacts()).to_vec(),
-                background: before.map_or(scenario.background, |stage| stage.last_background()),
-            }
-        } else {
-            document = switched(&document, &switches)?;
-            let help = format!("this is what [stages.set] of stage \"{name}\" leads to");
-            read_changing(&document, scenario, used, &help)?
-        };
-        let (changing, programs) = match programs {
-            None => (changing, None),
-            Some(programs) => {
-                let help = format!("this is what [stages.programs] of stage \"{name}\" leads to");
-                let mut states = Vec::new();
-                for settings in std::iter::once(programs.starts.clone()).chain(programs.settings()) {
-                    document = switched(&document, &settings)?;
-                    let Changing { contacts, background } = read_changing(&document, scenario, used, &help)?;
-                    states.push(ProgramState { contacts, background });
-                }
-                let ProgramState { contacts, background } = states[0].clone();
-                (Changing { contacts, background }, Some(Programs { keys: programs.keys, states }))
-            }
-        };
-        let Changing { contacts, background } = changing;
-        if let Some(place) = &form_bonds
-            && !contacts.iter().any(forms_bonds_at_start)
-        {
-            let found = "no contact has a bond that forms at the start of a stage";
-            let expected = "a table [contacts.A-B.bond] with `form = \"stage-start\"`";
-            return Err(document.error_at(place, Problem::rule(found, expected)).into());
-        }
-        let form_bonds = form_bonds.is_some();
-        deforms = cell.as_ref().map_or(deforms, |(motion, _)| motion.moves());
-        if deforms && background.gravity != Vector3::zero() {
-            let place = cell.as_ref().map_or(&stage_place, |(_, place)| place);
-            let found = "the cell deforms under gravity, but without a bottom it has no height";
-            return Err(document.error_at(place, Problem::rule(found, "no gravity in this stage")).into());
-        }
-        if deforms && let Some(inlet) = scenario.inlets.iter().find(|inlet| inlet.schedule.takes_in(&name)) {
-            let place = cell.as_ref().map_or(&stage_place, |(_, place)| place);
-            let found = format!("the cell deforms while the inlet {} is open", inlet.name);
-            let expected = "`stages` in [[inlets]] that name stages in which the cell keeps its shape";
-            return Err(document.error_at(place, Problem::rule(found, expected)).into());
-        }
-        let cell = cell.map(|(motion, _)| motion);
-        stages.push(Stage {
-            name,
-            until,
-            remove,
-            form_bonds,
-            controls,
-            cell,
-            contacts,
-            background,
-            time,
-            programs,
-        });
-    }
-    Ok(stages)
 }

@@ -165,7 +165,7 @@ pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
         total_mass: 0.0 + particles.iter().map(|particle| particle.mass).sum::<f64>(),
         contacts: forecasts(scenario, &prepared.sample),
         stages: stages(scenario, &prepared),
-        regimes: regimes(scenario, particles, &prepared.stages),
+        regimes: regimes(scenario, &prepared),
         memory: prepared.simulation.memory_size() as u64 + held_states(scenario, particles.len()),
         packed_memory: memory.map(|memory| memory.packed),
         available_memory: memory.and_then(|memory| memory.available),

@@ -172,7 +172,7 @@ impl Course<'_> {
         let cross_section = PI * self.smallest * self.smallest;
         let mut walls = vec![wall.clone()];
         walls[0].area = FaceArea::Given(cross_section * (1.0 - 1e-9));
-        let stiffness = TouchingAtOnce::of(particles, &plan.interactions, &walls, 0).stiffness;
+        let stiffness = TouchingAtOnce::of(particles, &plan.interactions, &walls, 0, false).stiffness;
         let largest = particles.iter().map(|particle| particle.radius).fold(0.0, f64::max);
         let overlap = pressure * cross_section / stiffness;
         if overlap <= largest || particles.is_empty() {

@@ -65,6 +65,12 @@ const SERIES: &[Description] = &[
     ("broken_bonds", "bonds that have broken so far", "1"),
     ("clusters", "groups of particles joined by contacts", "1"),
     ("largest_cluster", "particles of the largest group", "1"),
+    ("second_cluster", "particles of the second largest group", "1"),
+    ("monomers", "groups of one particle", "1"),
+    ("mean_cluster", "mean number of particles of the group of a particle", "1"),
+    ("gyration_radius", "radius of gyration of the centres of the largest group", "m"),
+    ("deposited", "particles in groups that are joined to a wall", "1"),
+    ("deposited_mass", "their mass", "kg"),
     ("temperature", "temperature", "K"),
 ];
 
@@ -110,6 +116,8 @@ const PARTICLES: &[Description] = &[
     ("kinetic_translation", "m v^2/2", "J"),
     ("kinetic_rotation", "I omega^2/2", "J"),
     ("stored_energy", "energy stored in its contacts, half of it with other particles", "J"),
+    ("cluster", "smallest number of a particle in its group", "1"),
+    ("cluster_size", "particles in its group", "1"),
 ];
 
 /// Fields of contacts.
@@ -286,7 +294,7 @@ mod tests {
         for text in SCENARIOS {
             let mut scenario =
                 Scenario::from_str("test.toml", text).unwrap_or_else(|errors| panic!("{errors}"));
-            scenario.output.clusters = true;
+            scenario.output.clusters = pulvis_input::scenario::ClusterRule::Acting;
             for column in column_names(&scenario) {
                 assert!(of_series(&scenario, &column).is_some(), "{column}");
                 described += 1;

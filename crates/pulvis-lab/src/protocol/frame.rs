@@ -3,11 +3,12 @@
 use pulvis_boundary::Region;
 use pulvis_core::{ContactPartner, ContactView, Simulation, Vectors};
 use pulvis_input::scenario::{
-    ContactFields, DEFAULT_CONTACT_FIELDS, DEFAULT_PARTICLE_FIELDS, OutputFiles, Scenario,
+    ClusterRule, ContactFields, DEFAULT_CONTACT_FIELDS, DEFAULT_PARTICLE_FIELDS, OutputFiles, Scenario,
 };
 use pulvis_io::vtk::{Frame, Numbers, PolyData};
 use pulvis_math::Vector3;
 
+use super::clusters::Graph;
 use super::outlines::walls;
 use super::particle_sums::ParticleSums;
 use super::surfaces::surfaces;
@@ -23,12 +24,18 @@ pub(crate) struct Selection<'a> {
     memory: Option<Vec<&'static str>>,
     /// Where particles and contact points lie.
     region: Option<Region>,
+    /// What joins particles to groups.
+    clusters: ClusterRule,
 }
+
+/// Fields that tell of the group of a particle; there by default where the time series tells groups.
+const OF_CLUSTERS: [&str; 2] = ["cluster", "cluster_size"];
 
 impl<'a> Selection<'a> {
     /// What the key `vtk` writes.
-    pub(crate) fn default_of_runs() -> Self {
-        Self { fields: None, contacts: DEFAULT_CONTACT_FIELDS.to_vec(), memory: None, region: None }
+    pub(crate) fn default_of_runs(scenario: &Scenario) -> Self {
+        let clusters = scenario.output.clusters;
+        Self { fields: None, contacts: DEFAULT_CONTACT_FIELDS.to_vec(), memory: None, region: None, clusters }
     }
 
     /// Names of what there is of particles, which have these further columns.
@@ -43,7 +50,10 @@ impl<'a> Selection<'a> {
                     ["id", "type"].into_iter().filter(|name| fields.iter().all(|field| field != name));
                 always.chain(fields.iter().map(String::as_str)).collect()
             }
-            None => DEFAULT_PARTICLE_FIELDS.iter().copied().chain(own).collect(),
+            None => {
+                let groups = OF_CLUSTERS.into_iter().filter(|_| self.clusters != ClusterRule::Never);
+                DEFAULT_PARTICLE_FIELDS.iter().copied().chain(groups).chain(own).collect()
+            }
         }
     }
 
@@ -70,7 +80,8 @@ impl<'a> Selection<'a> {
             ContactFields::Named(names) => names.iter().map(String::as_str).collect(),
         };
         let memory = Some(memory_columns(scenario));
-        Self { fields: files.fields.as_deref(), contacts, memory, region: files.region }
+        let clusters = scenario.output.clusters;
+        Self { fields: files.fields.as_deref(), contacts, memory, region: files.region, clusters }
     }
 }
 
@@ -94,7 +105,7 @@ fn column_name(name: &'static str) -> &'static str {
 
 /// Particles in the order of their ids, contacts and walls at the present time.
 pub(crate) fn frame_of(scenario: &Scenario, simulation: &Simulation) -> Frame {
-    selected_frame(scenario, simulation, &Selection::default_of_runs())
+    selected_frame(scenario, simulation, &Selection::default_of_runs(scenario))
 }
 
 /// What is asked for of the present state.
@@ -127,6 +138,16 @@ fn particles(simulation: &Simulation, contacts: &Contacts, selection: &Selection
     let scalars = |column: &[f64]| Numbers::Scalar(rows.iter().map(|&row| column[row]).collect());
     let computed =
         |value: &dyn Fn(usize) -> f64| Numbers::Scalar(rows.iter().map(|&row| value(row)).collect());
+    let names = selection.fields(particles.columns().iter().map(|column| column.name.as_str()));
+    // Where the time series does not tell groups, a file that asks for them has those of contacts that act.
+    let rule =
+        if selection.clusters == ClusterRule::Never { ClusterRule::Acting } else { selection.clusters };
+    let graph = names.iter().any(|name| OF_CLUSTERS.contains(name)).then(|| Graph::new(simulation, rule));
+    let of_graph = |of: &dyn Fn(&Graph, usize) -> usize| {
+        let number =
+            |&row: &usize| graph.as_ref().map_or(0, |graph| of(graph, particles.ids()[row] as usize));
+        Numbers::Integer(rows.iter().map(|row| number(row) as i64).collect())
+    };
     let column = |name: &str| match name {
         "id" => Numbers::Integer(rows.iter().map(|&row| i64::from(particles.ids()[row])).collect()),
         "type" => Numbers::Integer(rows.iter().map(|&row| i64::from(particles.materials()[row])).collect()),
@@ -147,12 +168,13 @@ fn particles(simulation: &Simulation, contacts: &Contacts, selection: &Selection
             0.5 * inertia * particles.angular_velocities()[row].norm_squared()
         }),
         "stored_energy" => Numbers::Scalar(sums.stored_energy(&kept)),
+        "cluster" => of_graph(&|graph, id| graph.root(id)),
+        "cluster_size" => of_graph(&|graph, id| graph.size_around(id)),
         own => match particles.column(own) {
             Some(own) => scalars(&own.values),
             None => Numbers::Scalar(vec![f64::NAN; rows.len()]),
         },
     };
-    let names = selection.fields(particles.columns().iter().map(|column| column.name.as_str()));
     let columns = names.into_iter().map(|name| (name.to_owned(), column(name))).collect();
     PolyData { points: vectors(particles.positions()), columns }
 }

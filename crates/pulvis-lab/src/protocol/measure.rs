@@ -3,10 +3,10 @@
 use pulvis_boundary::Shape;
 use pulvis_core::Simulation;
 use pulvis_core::observation::ObservationPlan;
-use pulvis_input::scenario::{Scenario, WallShape};
+use pulvis_input::scenario::{ClusterRule, Scenario, WallShape};
 
 use super::cell;
-use super::clusters::{Clusters, clusters};
+use super::clusters::{self, Clusters, clusters};
 use super::observers;
 use super::openings::{self, Openings};
 use super::stage::{length, wall_force, wall_stress};
@@ -46,8 +46,8 @@ pub fn column_names(scenario: &Scenario) -> Vec<String> {
     if may_bond(scenario) {
         columns.extend(["bonds", "broken_bonds"].map(str::to_owned));
     }
-    if scenario.output.clusters {
-        columns.extend(["clusters", "largest_cluster"].map(str::to_owned));
+    if scenario.output.clusters != ClusterRule::Never {
+        columns.extend(clusters::COLUMNS.map(str::to_owned));
         for name in ["spans", "roughness"] {
             columns.extend(AXES.map(|axis| format!("{name}_{axis}")));
         }
@@ -164,9 +164,9 @@ impl Measure {
             let bonds = simulation.bonds();
             row.extend([bonds.intact as f64, bonds.broken as f64]);
         }
-        if scenario.output.clusters {
-            let Clusters { count, largest, spans, roughness } = clusters(scenario, simulation);
-            row.extend([count as f64, largest as f64]);
+        if scenario.output.clusters != ClusterRule::Never {
+            let Clusters { values, spans, roughness } = clusters(scenario, simulation);
+            row.extend(values);
             row.extend(spans.map(|spans| spans.map_or(f64::NAN, |spans| f64::from(u8::from(spans)))));
             row.extend(roughness.map(|roughness| roughness.unwrap_or(f64::NAN)));
         }

@@ -126,7 +126,7 @@ impl Session {
         let mut left = most;
         let ending = loop {
             let openings = self.openings.steps_left(&self.simulation);
-            let steps = rules.steps_left(&self.simulation).min(openings).clamp(1, left);
+            let steps = rules.steps_left(&self.simulation, &self.openings).min(openings).clamp(1, left);
             self.simulation.advance(steps).map_err(|source| self.stopped(source))?;
             (left, *taken) = (left - steps, *taken + steps);
             let programs = (stage, &self.plans[number].programs[..]);

@@ -126,6 +126,7 @@ pub(super) fn stages(
     walls: &[Wall],
 ) -> Result<Vec<StagePlan>, PrepareError> {
     let mut walls = walls.to_vec();
+    let grows = !scenario.inlets.is_empty();
     let mut plans = Vec::with_capacity(scenario.stages.len());
     for (number, stage) in scenario.stages.iter().enumerate() {
         let wall_changes: Vec<(usize, WallControl)> = stage.controls.clone();
@@ -139,7 +140,7 @@ pub(super) fn stages(
         let start = std::iter::once((&interactions, &stage.background));
         let states = start.chain(programs.iter().skip(1).map(|(models, background)| (models, background)));
         let shortest = states
-            .filter_map(|(models, background)| shortest_motion(particles, models, &walls, background))
+            .filter_map(|(models, background)| shortest_motion(particles, models, &walls, background, grows))
             .min_by(|one, other| one.duration.total_cmp(&other.duration));
         let time_step = time_step(scenario, stage.time, shortest, number)?;
         plans.push(StagePlan {

@@ -66,7 +66,7 @@ pub(super) fn plans(scenario: &Scenario) -> Vec<Plan<'_>> {
         name: "",
         every,
         precision: Precision::Double,
-        selection: Selection::default_of_runs(),
+        selection: Selection::default_of_runs(scenario),
     };
     let mut plans = match scenario.output.snapshots {
         SnapshotPlan::Never => Vec::new(),

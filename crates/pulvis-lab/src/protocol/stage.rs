@@ -152,8 +152,9 @@ impl<'a> StageWatch<'a> {
     }
 
     /// Steps before which the stage certainly does not end, and no look is due.
-    pub(super) fn steps_left(&self, simulation: &Simulation) -> u64 {
-        if self.rules.strain.is_some() || self.rules.shear_strain.is_some() {
+    pub(super) fn steps_left(&self, simulation: &Simulation, openings: &Openings) -> u64 {
+        // What has passed before the stage began ends it at its first step, not at the first look.
+        if self.rules.strain.is_some() || self.rules.shear_strain.is_some() || self.has_passed(openings) {
             return 1;
         }
         let look = LOOK_EVERY - (simulation.steps() - self.start_step) % LOOK_EVERY;
@@ -180,7 +181,7 @@ impl<'a> StageWatch<'a> {
         if self.strain_reached(simulation) || self.shear_reached(simulation) {
             return Some(Ending::Strain);
         }
-        if self.rules.passed.is_some_and(|rule| openings.has_passed(rule.opening, rule.amount)) {
+        if self.has_passed(openings) {
             return Some(Ending::Passed);
         }
         if !(simulation.steps() - self.start_step).is_multiple_of(LOOK_EVERY) {
@@ -208,6 +209,10 @@ impl<'a> StageWatch<'a> {
         // Without a contact the ratio means nothing: only what does not move at all is at rest then. That a sample has
         // flown apart is no rest; it stops the run.
         ledger.kinetic() <= limit * ledger.elastic()
+    }
+
+    fn has_passed(&self, openings: &Openings) -> bool {
+        self.rules.passed.is_some_and(|rule| openings.has_passed(rule.opening, rule.amount))
     }
 
     fn strain_reached(&self, simulation: &Simulation) -> bool {

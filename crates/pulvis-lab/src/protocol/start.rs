@@ -168,7 +168,9 @@ fn with_start(mut document: Document, path: Option<&Path>) -> Result<Document, I
         let refused = |error| document.error_at(&place, Problem::Refused(Box::new(error)));
         let Found { checkpoint, .. } = of_run(&start).map_err(refused)?;
         let (parent, stage) = parent(&checkpoint)?;
-        let base = Document::from_str("the run", &parent.as_in_stage(stage).to_resolved_toml(""))?;
+        // Programs of a stage that has not ended stand where they stood.
+        let update = checkpoint.run.watch.is_some().then_some(checkpoint.run.update as usize);
+        let base = Document::from_str("the run", &parent.as_in_stage(stage, update).to_resolved_toml(""))?;
         document =
             document.with_missing_from(&base, &["title", "start_from", "allow", "stages", "output"], &place);
     }

@@ -33,14 +33,16 @@ const NAMED: [(&str, Quantity); 5] = [
     ("material", Quantity::Material),
 ];
 
-/// Labels of the columns that every frame has.
-const LABELS: [(&str, &str); 6] = [
+/// Labels of columns of frames.
+const LABELS: [(&str, &str); 8] = [
     ("radius", "radius [m]"),
     ("v", "speed [m/s]"),
     ("omega", "angular velocity [rad/s]"),
     ("f", "total force [N]"),
     ("torque", "total torque [N m]"),
     ("id", "number of the particle"),
+    ("cluster", "smallest number in its group"),
+    ("cluster_size", "particles in its group"),
 ];
 
 impl Quantity {

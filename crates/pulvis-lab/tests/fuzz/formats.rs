@@ -24,6 +24,8 @@ pub enum Format {
     Figure,
     Study,
     Table,
+    Import,
+    Mesh,
     Checkpoint,
 }
 
@@ -31,12 +33,14 @@ impl Format {
     /// Of a hundred cases: the largest formats have the most.
     pub fn of_case(case: u64) -> Self {
         match case % 20 {
-            0..8 => Self::Scenario,
+            0..7 => Self::Scenario,
+            7 => Self::Import,
             8..11 => Self::Collision,
             11..13 => Self::Probe,
             13 => Self::Figure,
             14 => Self::Study,
-            15..17 => Self::Table,
+            15 => Self::Table,
+            16 => Self::Mesh,
             _ => Self::Checkpoint,
         }
     }
@@ -50,6 +54,9 @@ pub struct Corpus {
     figures: Vec<String>,
     studies: Vec<String>,
     tables: Vec<String>,
+    /// With the endings of their files.
+    imports: Vec<(&'static str, String)>,
+    meshes: Vec<(&'static str, Vec<u8>)>,
     /// Header and contents of a checkpoint.
     checkpoint: (String, Vec<u8>),
     folder: PathBuf,
@@ -105,7 +112,17 @@ impl Corpus {
         studies.extend(texts(&input.join("bad_studies"), |name| name.ends_with(".toml")));
         let checkpoint = checkpoint_of_a_run(&folder.join("run"));
         let folder = folder.to_owned();
-        Self { scenarios, collisions, probes, figures, studies, tables, checkpoint, folder }
+        let imports = seeds(&root.join("fuzz/seeds/import"), |name| match name {
+            "dump" => "dump",
+            "data" => "data",
+            "xyz" => "xyz",
+            _ => "csv",
+        });
+        let imports = imports.into_iter().map(|(ending, seed)| (ending, String::from_utf8(seed).unwrap()));
+        let imports = imports.collect();
+        let meshes =
+            seeds(&root.join("fuzz/seeds/mesh"), |name| if name == "object" { "obj" } else { "stl" });
+        Self { scenarios, collisions, probes, figures, studies, tables, imports, meshes, checkpoint, folder }
     }
 
     /// One case. What it was given, and how it ended.
@@ -140,6 +157,30 @@ impl Corpus {
                 fs::write(self.folder.join("table.csv"), text(&self.tables)).unwrap();
                 let file = self.folder.join("table.toml");
                 fs::write(&file, WITH_TABLE).unwrap();
+                of_scenario(Scenario::load(&file))
+            }
+            Format::Import => {
+                let texts: Vec<String> = self.imports.iter().map(|(_, text)| text.clone()).collect();
+                let (ending, sound) = dice.pick(&self.imports);
+                let text = mutated(sound, &texts, dice);
+                given.clone_from(&text);
+                let path = format!("grains.{ending}");
+                fs::write(self.folder.join(&path), text).unwrap();
+                let file = self.folder.join("import.toml");
+                fs::write(&file, WITH_TABLE.replace("table.csv", &path)).unwrap();
+                of_scenario(Scenario::load(&file))
+            }
+            Format::Mesh => {
+                let (ending, sound) = dice.pick(&self.meshes);
+                let bytes = match std::str::from_utf8(sound) {
+                    Ok(text) => mutated(text, &[text.to_owned()], dice).into_bytes(),
+                    Err(_) => mutated_bytes(sound, dice),
+                };
+                *given = String::from_utf8_lossy(&bytes).into_owned();
+                let path = format!("blade.{ending}");
+                fs::write(self.folder.join(&path), bytes).unwrap();
+                let file = self.folder.join("mesh.toml");
+                fs::write(&file, WITH_MESH.replace("blade.stl", &path)).unwrap();
                 of_scenario(Scenario::load(&file))
             }
             Format::Checkpoint => self.try_checkpoint(dice),
@@ -179,6 +220,36 @@ arrangement = { kind = "file", path = "table.csv" }
 name = "all"
 until = { time = "1 ms" }
 "#;
+
+const WITH_MESH: &str = r#"[materials.grain]
+density = "2000 kg/m^3"
+[contacts.grain-grain.normal]
+law = "linear"
+k = "100 N/m"
+[[particles]]
+material = "grain"
+radius = { distribution = "fixed", value = "1 mm" }
+arrangement = { kind = "list", positions = [["0 mm", "0 mm", "50 mm"]] }
+[walls.blade]
+kind = "mesh"
+material = "grain"
+file = "blade.stl"
+scale = "1 mm"
+[[stages]]
+name = "all"
+until = { time = "1 ms" }
+"#;
+
+/// Sound inputs of the coverage-guided fuzzing: a letter that says which format they are in, and the file.
+fn seeds(folder: &Path, ending: impl Fn(&str) -> &'static str) -> Vec<(&'static str, Vec<u8>)> {
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    let seed = |path: PathBuf| {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        (ending(&name), fs::read(&path).unwrap().split_off(1))
+    };
+    paths.into_iter().map(seed).collect()
+}
 
 /// The texts of the files of a folder, in the order of their names.
 fn texts(folder: &Path, wanted: impl Fn(&str) -> bool) -> Vec<String> {

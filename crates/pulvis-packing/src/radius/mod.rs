@@ -221,9 +221,42 @@ impl RadiusDistribution {
                 elementary::powf(radius / scale, exponent - 1.0) * weibull_above(radius, scale, exponent)
             }),
         };
-        let (minimum, maximum) = self.limits();
+        let (minimum, maximum) = self.range_by_mass();
         let pieces = Pieces::of_density(density, minimum, maximum).by_mass();
         Ok((0..count).map(|_| pieces.radius(random.random::<f64>())).collect())
+    }
+
+    /// Between these radii [m] lie all numbers of particles of a distribution by mass that can be told from none, so that its pieces
+    /// are not spent on limits that are far away.
+    fn range_by_mass(&self) -> (f64, f64) {
+        // exp(-FAR²/2) = 1e-22: less than a random number resolves.
+        const FAR: f64 = 10.0;
+        let (minimum, maximum) = self.limits();
+        let (low, high) = match *self {
+            Self::Normal { mean, standard_deviation, .. } => {
+                // Numbers fall with 1/r³, which outweighs the Gaussian only where the mean is within FAR deviations of zero.
+                (mean - 1.5 * FAR * standard_deviation, mean + FAR * standard_deviation)
+            }
+            // By number the median is that of the mass times exp(-3 sigma²), with the same sigma (Hatch and Choate 1929).
+            Self::LogNormal { median, sigma, .. } => (
+                median * elementary::exp(-sigma * (3.0 * sigma + FAR)),
+                median * elementary::exp(FAR * sigma),
+            ),
+            Self::RosinRammler { scale, exponent, .. } => {
+                let high = scale * elementary::powf(0.5 * FAR * FAR, 1.0 / exponent);
+                // Numbers grow with r^(n - 3): from n = 4 on there are none at zero.
+                let low = if exponent > 4.0 {
+                    scale * elementary::exp(-0.5 * FAR * FAR / (exponent - 3.0))
+                } else {
+                    0.0
+                };
+                (low, high)
+            }
+            _ => (minimum, maximum),
+        };
+        let (low, high) = (low.max(minimum), high.min(maximum));
+        // Limits that lie out there themselves stay.
+        if low < high { (low, high) } else { (minimum, maximum) }
     }
 }
 

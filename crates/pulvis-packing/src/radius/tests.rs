@@ -218,3 +218,26 @@ fn tables_and_exponents_out_of_range_are_refused_by_their_names() {
         }
     }
 }
+
+#[test]
+fn limits_far_away_leave_a_narrow_distribution_by_mass_its_width() {
+    let (mean, deviation) = (1.0, 1e-3);
+    let sizes = [
+        normal(mean, deviation, 1e-3, 100.0),
+        RadiusDistribution::LogNormal { median: mean, sigma: deviation, minimum: 1e-3, maximum: 100.0 },
+    ];
+    for of in sizes {
+        let (found, width) = moments(&by_mass(of.clone()));
+        // By number the mean is three variances lower, 3e-6; of 40 000 draws the width is known to half a per cent.
+        assert!(
+            (found - mean).abs() < 4e-5 && (width / deviation - 1.0).abs() < 0.03,
+            "{of:?}: {found} {width}"
+        );
+    }
+    // ln r is a thousandth wide, too: half of the mass lies above scale (ln 2)^(1/n).
+    let (scale, exponent) = (1.0, 1000.0);
+    let radii =
+        drawn(&by_mass(RadiusDistribution::RosinRammler { scale, exponent, minimum: 1e-3, maximum: 100.0 }));
+    let half = elementary::powf(elementary::ln(2.0), 1.0 / exponent);
+    assert!((mass_above(&radii, half) - 0.5).abs() < 0.02);
+}

@@ -22,7 +22,7 @@ pub(super) fn weld(triangles: &[[Vector3; 3]], same: f64) -> Result<Welded, Inva
         if let Some(&known) = exact.get(&bits) {
             return known;
         }
-        let cell = corner.to_array().map(|x| (x / edge).floor() as i64);
+        let cell = corner.to_array().map(|x| (x / edge).floor().clamp(-1e18, 1e18) as i64);
         let around = (0..27_i64).map(|n| [cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1]);
         let near = around.filter_map(|cell| cells.get(&cell)).flatten().copied();
         let near = near.filter(|&known| (points[known as usize] - corner).norm() <= same).min();

@@ -174,9 +174,11 @@ impl NormalLaw for SinterOverlap {
             let pressed = middle.gt(half_way.plastic) & half_way.plastic.lt(scales.most);
             if pressed.any() {
                 let grown = self.grown(&scales, half_way.plastic, middle, motion.time_step);
-                // What the contact has yielded on the way it need not grow: it does the larger one of both, not both.
+                // What the contact yields in the step, in its first half and as much again in the second one, it need not
+                // grow: it does the larger one of both, not both.
                 let yielded = (half_way.plastic - start).max(R::zero());
-                let grown = half_way.plastic.max(grown - yielded);
+                let outgrows = (grown - half_way.plastic).gt(yielded + yielded);
+                let grown = R::select(outgrows, grown - yielded, half_way.plastic);
                 let fall =
                     self.energy(&scales, half_way.plastic, middle) - self.energy(&scales, grown, middle);
                 lost_plastic = (half_way.lost_plastic + fall).keep_where(pressed);

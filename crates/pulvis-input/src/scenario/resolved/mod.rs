@@ -7,7 +7,7 @@ pub(super) mod writer;
 use super::inlets::write_inlets;
 use super::observers::write_observers;
 use super::outlets::write_outlets;
-use super::output::{CheckpointPlan, Interval, OutputPlan, Snapshots};
+use super::output::{CheckpointPlan, ClusterRule, Interval, OutputPlan, Snapshots};
 use super::output_files::write_output_files;
 use super::start::StartFrom;
 use super::time::TimeStep;
@@ -183,8 +183,10 @@ fn write_output(writer: &mut Writer, output: &OutputPlan, stages: &[Stage]) {
         },
     );
     writer.key("plots", output.plots.to_string());
-    if output.clusters {
-        writer.key("clusters", "true");
+    match output.clusters {
+        ClusterRule::Never => {}
+        ClusterRule::Acting => writer.key("clusters", "true"),
+        ClusterRule::Bound => writer.key("clusters", text("bound")),
     }
     writer.key("checkpoints", checkpoints(output.checkpoints));
     if let Some(scales) = output.dimensionless {

@@ -41,7 +41,7 @@ impl Clock {
 
     /// When it acts next [s]; `None` while it is shut.
     fn next(&self, schedule: &Schedule, interval: f64) -> Option<f64> {
-        self.opened.map(|opened| opened.max(schedule.start) + (self.looks + 1) as f64 * interval)
+        self.opened.map(|opened| opened.max(schedule.start) + (self.looks as f64 + 1.0) * interval)
     }
 
     /// Steps before which it certainly does not act.
@@ -55,7 +55,8 @@ impl Clock {
         let time = simulation.time() + 0.5 * simulation.time_step();
         let Some(next) = self.next(schedule, interval).filter(|next| time >= *next) else { return false };
         // Intervals that are shorter than a step pass together.
-        self.looks += 1 + ((time - next) / interval) as u64;
+        let missed = ((time - next) / interval) as u64;
+        self.looks = self.looks.saturating_add(1).saturating_add(missed);
         true
     }
 }

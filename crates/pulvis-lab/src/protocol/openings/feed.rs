@@ -18,7 +18,7 @@ pub(super) struct Feed {
     pub(super) plan: InletScenario,
     pub(super) inlet: Inlet,
     /// Time between two instants at which particles come in [s].
-    interval: f64,
+    pub(super) interval: f64,
     /// How long a particle may wait for room [s].
     max_delay: f64,
     pub(super) clock: Clock,
@@ -81,6 +81,9 @@ impl Feed {
             return Ok(());
         }
         let domain = *simulation.domain();
+        if domain.is_tilted() {
+            return Err(InletError::Tilted { name: self.plan.name.clone() });
+        }
         let (_, largest) = self.plan.radius.limits();
         let mut room = Free::around(simulation, &self.plan.region, largest);
         let spheres = self.inlet.supply(open, &domain, &mut room);

@@ -59,6 +59,14 @@ pub enum InletError {
         /// What is due, in words.
         due: String,
     },
+    /// The cell was sheared, and the room in it is looked for along straight periods.
+    #[error(
+        "inlet `{name}` is open in a periodic cell that was sheared, where it cannot tell what is free; open it before the shear"
+    )]
+    Tilted {
+        /// The inlet.
+        name: String,
+    },
     /// The engine does not take the particles.
     #[error("inlet `{name}`: {source}")]
     Refused {

@@ -1,5 +1,6 @@
 //! What a checkpoint keeps of inlets and outlets.
 
+use pulvis_input::scenario::Amount;
 use pulvis_math::Vector3;
 use pulvis_packing::InletState;
 use serde::{Deserialize, Serialize};
@@ -24,7 +25,32 @@ struct InletRecord {
     open_before: f64,
     opened: Option<f64>,
     looks: u64,
+    timing: Timing,
     passage: PassageRecord,
+}
+
+/// What the clock of an inlet, and what it owes by it, are counted in.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Timing {
+    /// Whether the rate is one of mass.
+    by_mass: bool,
+    rate: f64,
+    interval: f64,
+    start: f64,
+    stop: f64,
+}
+
+impl Timing {
+    fn of(feed: &Feed) -> Self {
+        let (rate, schedule) = (feed.plan.rate, &feed.plan.schedule);
+        Self {
+            by_mass: matches!(rate, Amount::Mass(_)),
+            rate: rate.value(),
+            interval: feed.interval,
+            start: schedule.start,
+            stop: schedule.stop,
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,15 +96,23 @@ impl Openings {
                 open_before,
                 opened,
                 looks,
+                timing,
                 passage,
             } = known;
+            let (smallest, largest) = feed.plan.radius.limits();
             feed.inlet.set_state(&InletState {
                 word_position: *word_position,
-                next_radius: *next_radius,
+                next_radius: next_radius.filter(|radius| (smallest..=largest).contains(radius)),
                 number: *number,
                 mass: *mass,
             });
-            feed.clock = Clock { open_before: *open_before, opened: *opened, looks: *looks };
+            feed.clock = if *timing == Timing::of(feed) {
+                Clock { open_before: *open_before, opened: *opened, looks: *looks }
+            } else {
+                // A branch with another rate owes nothing for the time before: as if it had run at this one until it had
+                // brought in what it has.
+                Clock { open_before: feed.inlet.supplied() / feed.plan.rate.value(), ..Clock::SHUT }
+            };
             restore_passage(&mut feed.passage, passage);
         }
         for drain in &mut self.drains {
@@ -102,6 +136,7 @@ fn inlet_record(feed: &Feed) -> InletRecord {
         open_before: *open_before,
         opened: *opened,
         looks: *looks,
+        timing: Timing::of(feed),
         passage: passage_record(&feed.passage),
     }
 }

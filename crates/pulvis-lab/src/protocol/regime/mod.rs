@@ -14,14 +14,13 @@ mod surroundings;
 use std::f64::consts::PI;
 
 use pulvis_contact::Partner;
-use pulvis_core::Particle;
 use pulvis_input::collision::{Bodies, Sphere, luding_pair};
-use pulvis_input::scenario::{CellMotion, Scenario};
+use pulvis_input::scenario::Scenario;
 use pulvis_math::elementary;
 
 use super::check::surroundings as contact_surroundings;
 use super::feasible::start_stage;
-use super::setup::{StagePlan, drawn_walls};
+use super::setup::Prepared;
 use super::typical::TypicalBodies;
 use loading::Loading;
 use surroundings::{Sample, StageLoad};
@@ -86,18 +85,21 @@ impl StageRegime {
 }
 
 /// The regimes of all stages in which something presses or drives the particles, or in which they are a gas.
-pub(super) fn regimes(scenario: &Scenario, particles: &[Particle], plans: &[StagePlan]) -> Vec<StageRegime> {
+/// Particles are those of the start: what inlets will bring, and what programs will change, is left out.
+pub(super) fn regimes(scenario: &Scenario, prepared: &Prepared) -> Vec<StageRegime> {
+    let Prepared { simulation, stages: plans, particles, .. } = prepared;
     if particles.len() < BULK {
         return Vec::new();
     }
-    let sample = Sample::of(scenario, particles);
-    let mut walls = drawn_walls(scenario);
-    let mut cell = CellMotion::default();
+    let sample = Sample::of(scenario, particles, simulation.domain());
+    // A run before may have moved, driven or removed walls, and deformed the cell.
+    let mut walls = simulation.walls().to_vec();
+    let mut cell = *simulation.cell_motion();
     let mut found = Vec::new();
     for (number, (stage, plan)) in scenario.stages.iter().zip(plans).enumerate() {
         start_stage(walls.iter_mut(), stage);
         cell = stage.cell.unwrap_or(cell);
-        let load = StageLoad { scenario, sample: &sample, walls: &walls, cell: &cell, stage, plan };
+        let load = StageLoad { sample: &sample, walls: &walls, cell: &cell, stage, plan };
         let (pressure, rate) = (load.pressure(), load.rate());
         let gas = if number == 0 && pressure.is_none() { sample.gas() } else { None };
         let contacts: Vec<ContactRegime> = stage

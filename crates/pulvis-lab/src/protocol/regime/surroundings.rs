@@ -1,6 +1,6 @@
 //! What presses particles and what drives them, as far as it is known before the run.
 
-use pulvis_boundary::WallShape;
+use pulvis_boundary::{Domain, WallShape};
 use pulvis_core::Particle;
 use pulvis_core::walls::Wall;
 use pulvis_input::scenario::{CellMotion, Scenario, Stage};
@@ -32,7 +32,7 @@ pub(super) struct Sample {
 }
 
 impl Sample {
-    pub(super) fn of(scenario: &Scenario, particles: &[Particle]) -> Self {
+    pub(super) fn of(scenario: &Scenario, particles: &[Particle], domain: &Domain) -> Self {
         let count = particles.len() as f64;
         let sum = |of: &dyn Fn(&Particle) -> f64| particles.iter().map(of).sum::<f64>();
         let ball = |radius: f64| 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius;
@@ -40,7 +40,7 @@ impl Sample {
         let mean =
             particles.iter().fold(Vector3::zero(), |sum, particle| sum + particle.velocity) * (1.0 / count);
         let temperature = sum(&|particle| (particle.velocity - mean).norm_squared()) / (3.0 * count);
-        let (extent, closed) = extent(scenario, particles);
+        let (extent, closed) = extent(scenario, particles, domain);
         let diameter = 2.0 * sum(&|particle| particle.radius) / count;
         Self { diameter, density: mass / volume, mass, extent, closed, volume, temperature }
     }
@@ -54,9 +54,7 @@ impl Sample {
 }
 
 /// Lengths along x, y and z, and whether they are those of walls or periods.
-fn extent(scenario: &Scenario, particles: &[Particle]) -> (Vector3, bool) {
-    let domain = scenario.domain;
-    let periodic = domain.map_or([false; 3], |domain| domain.periodic);
+fn extent(scenario: &Scenario, particles: &[Particle], domain: &Domain) -> (Vector3, bool) {
     let mut lengths = [0.0; 3];
     for (axis, length) in lengths.iter_mut().enumerate() {
         let ends = particles.iter().map(|particle| {
@@ -66,19 +64,18 @@ fn extent(scenario: &Scenario, particles: &[Particle]) -> (Vector3, bool) {
         let reach = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [start, end]| {
             [low.min(start), high.max(end)]
         });
-        *length = match (domain.and_then(|domain| domain.period(axis)), scenario.enclosure) {
+        *length = match (domain.period(axis), scenario.enclosure) {
             (Some(period), _) => period,
             (None, Some(enclosure)) => enclosure.size()[axis],
             (None, None) => reach[1] - reach[0],
         };
     }
-    let closed = scenario.enclosure.is_some() || periodic == [true; 3];
+    let closed = scenario.enclosure.is_some() || domain.periodic == [true; 3];
     (Vector3::from(lengths), closed)
 }
 
 /// What acts on the particles in a stage.
 pub(super) struct StageLoad<'a> {
-    pub(super) scenario: &'a Scenario,
     pub(super) sample: &'a Sample,
     /// The walls as the stage moves them.
     pub(super) walls: &'a [Wall],
@@ -105,7 +102,7 @@ impl StageLoad<'_> {
         let extent = self.sample.extent;
         let ground = extent[(along + 1) % 3] * extent[(along + 2) % 3];
         // Without a floor nothing is pressed.
-        (!self.scenario.walls.is_empty()).then(|| Cause {
+        self.present_walls().next().map(|_| Cause {
             value: gravity.norm() * self.sample.mass / ground,
             from: "under the weight of all particles".to_owned(),
         })

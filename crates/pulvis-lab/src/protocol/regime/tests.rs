@@ -32,7 +32,7 @@ until = {{ time = "1 ms" }}
 
 fn regimes_of(scenario: &Scenario) -> Vec<StageRegime> {
     let prepared = prepare(scenario).unwrap();
-    regimes(scenario, &prepared.particles, &prepared.stages)
+    regimes(scenario, &prepared)
 }
 
 /// What is read off a loading of 1000 steps.
@@ -126,5 +126,5 @@ fn few_particles_are_no_bulk_and_have_no_regime() {
     let minimal = Scenario::from_str("minimal.toml", text).unwrap();
     let prepared = prepare(&minimal).unwrap();
     assert!(prepared.particles.len() < BULK);
-    assert_eq!(regimes(&minimal, &prepared.particles, &prepared.stages), []);
+    assert_eq!(regimes(&minimal, &prepared), []);
 }

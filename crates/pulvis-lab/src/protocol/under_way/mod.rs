@@ -186,20 +186,7 @@ impl<'a> Run<'a> {
         };
         let mut pace = Pace::new(self.simulation.steps());
         let ending = loop {
-            let steps = self.steps_to_next_look(&rules);
-            self.simulation.advance(steps).map_err(|source| self.stopped(number, source))?;
-            let programs = (stage, &self.plans[number].programs[..]);
-            let (models, present) = (&mut self.interactions, &mut self.update);
-            update(&mut self.simulation, models, present, programs, rules.start_time())?;
-            if let Err(source) = self.openings.act(&mut self.simulation) {
-                // The state is sound, and the last that there is.
-                self.row(number, &rules)?;
-                return Err(RunError::inlet(&stage.name, source).with_folder(self.output.path()));
-            }
-            if self.rows_due.now(&self.simulation) {
-                self.row(number, &rules)?;
-            }
-            self.snapshots.write_due(scenario, &self.simulation, &mut self.output)?;
+            self.advance(number, &rules)?;
             if let Some(ending) = rules.ending(&self.simulation, &self.openings) {
                 break ending;
             }
@@ -233,6 +220,26 @@ impl<'a> Run<'a> {
         Ok(StageResult { name: stage.name.clone(), ending, time, steps })
     }
 
+    /// Steps to the next look, and all that is due then.
+    fn advance(&mut self, number: usize, rules: &StageWatch<'_>) -> Result<(), RunError> {
+        let scenario = self.scenario;
+        let stage = &scenario.stages[number];
+        let steps = self.steps_to_next_look(rules);
+        self.simulation.advance(steps).map_err(|source| self.stopped(number, source))?;
+        let programs = (stage, &self.plans[number].programs[..]);
+        let (models, present) = (&mut self.interactions, &mut self.update);
+        update(&mut self.simulation, models, present, programs, rules.start_time())?;
+        if let Err(source) = self.openings.act(&mut self.simulation) {
+            // The state is sound, and the last that there is.
+            self.row(number, rules)?;
+            return Err(RunError::inlet(&stage.name, source).with_folder(self.output.path()));
+        }
+        if self.rows_due.now(&self.simulation) {
+            self.row(number, rules)?;
+        }
+        self.snapshots.write_due(scenario, &self.simulation, &mut self.output)
+    }
+
     /// Steps that can be done in one go before anything has to be looked at: the engine is faster so.
     fn steps_to_next_look(&self, rules: &StageWatch<'_>) -> u64 {
         let simulation = &self.simulation;
@@ -241,7 +248,7 @@ impl<'a> Run<'a> {
         let regular =
             regular.into_iter().flatten().chain(self.snapshots.due()).map(|due| due.steps_left(simulation));
         let openings = self.openings.steps_left(simulation);
-        regular.fold(pace, u64::min).min(rules.steps_left(simulation)).min(openings).max(1)
+        regular.fold(pace, u64::min).min(rules.steps_left(simulation, &self.openings)).min(openings).max(1)
     }
 
     fn switch_to(&mut self, number: usize) -> Result<(), RunError> {
