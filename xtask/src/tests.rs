@@ -74,7 +74,8 @@ fn schemas(python: &Path) -> Outcome {
     let has_validator = || works(Command::new(python).args(["-c", "import tomllib, jsonschema"]));
     // An environment of an earlier version has none.
     let install = ["-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "20", "jsonschema"];
-    if !has_validator() && !(works(Command::new(python).args(install)) && has_validator()) {
+    let installed = has_validator() || works(Command::new(python).args(install)) && has_validator();
+    if !installed {
         println!("skipped: schemas are not checked, Python has no `jsonschema`, or is older than 3.11");
         return Ok(());
     }

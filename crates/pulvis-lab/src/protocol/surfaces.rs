@@ -239,12 +239,13 @@ mod tests {
         let area = |name: &str| found.iter().find(|(known, _)| known == name).unwrap().1;
         // Regular polygons of 48 sides: perimeter 2 n r sin(pi/n), area n r^2 sin(2 pi/n)/2.
         let n = SEGMENTS as f64;
-        let perimeter = |radius: f64| 2.0 * n * radius * (std::f64::consts::PI / n).sin();
+        let perimeter = |radius: f64| 2.0 * n * radius * elementary::sin(std::f64::consts::PI / n);
         assert!((area("silo") / (perimeter(0.01) * 0.03) - 1.0).abs() < 1e-12, "{found:?}");
-        let polygon = 0.5 * n * 0.01 * 0.01 * (TAU / n).sin();
+        let polygon = 0.5 * n * 0.01 * 0.01 * elementary::sin(TAU / n);
         assert!((area("piston") / polygon - 1.0).abs() < 1e-12, "{found:?}");
         // A cone to its tip: half the perimeter times the height of its triangles.
-        let slant = (0.01_f64.powi(2) + (0.01 * (std::f64::consts::PI / n).cos()).powi(2)).sqrt();
+        let apothem = 0.01 * elementary::cos(std::f64::consts::PI / n);
+        let slant = (0.01 * 0.01 + apothem * apothem).sqrt();
         assert!((area("funnel") / (0.5 * perimeter(0.01) * slant) - 1.0).abs() < 1e-12, "{found:?}");
         // The blade of 8 mm x 4 mm.
         assert!((area("paddle") / 32e-6 - 1.0).abs() < 1e-9, "{found:?}");

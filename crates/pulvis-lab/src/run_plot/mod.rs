@@ -82,6 +82,9 @@ pub struct RunSeries {
     stages: Vec<String>,
 }
 
+/// Quantities of one unit, each with its values.
+type Group<'p> = (String, Vec<(&'p str, Vec<f64>)>);
+
 /// A line of the file that describes all columns.
 #[derive(Deserialize)]
 struct Field {
@@ -147,7 +150,7 @@ impl RunSeries {
         let abscissa = plot.abscissa.as_deref().unwrap_or("time");
         let stage = plot.stage.as_deref().map(|stage| self.stage(stage)).transpose()?;
         let x = self.values(abscissa)?;
-        let mut groups: Vec<(String, Vec<(&str, Vec<f64>)>)> = Vec::new();
+        let mut groups: Vec<Group<'_>> = Vec::new();
         for name in wanted {
             let (values, unit) = (self.values(name)?, self.unit(name));
             match groups.iter_mut().find(|(known, _)| *known == unit) {
@@ -158,7 +161,7 @@ impl RunSeries {
         let stages = self.values("stage")?;
         let keep = |row: &usize| stage.is_none_or(|stage| stages[*row] == stage as f64);
         let kept: Vec<usize> = (0..self.rows.len()).filter(keep).collect();
-        let chart = |(unit, group): &(String, Vec<(&str, Vec<f64>)>)| {
+        let chart = |(unit, group): &Group<'_>| {
             let mut chart = self.frame(abscissa, &kept, stage.is_none(), &stages, &x);
             chart = match &group[..] {
                 [(name, _)] => chart.y_label(with_unit(name, unit)),
