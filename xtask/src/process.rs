@@ -38,7 +38,7 @@ pub fn cargo(arguments: &[&str]) -> Command {
 /// The `pulvis` command, built first if it is not up to date, together with the tests: their dependencies switch on
 /// features of shared crates, and without them the engine would be compiled once more.
 pub fn pulvis() -> Outcome<PathBuf> {
-    run(&mut cargo(&["build", "--workspace", "--bins", "--tests"]))?;
+    run(&mut cargo(&["build", "--workspace", "--bin", "pulvis", "--tests"]))?;
     let name = format!("pulvis{}", std::env::consts::EXE_SUFFIX);
     let own = std::env::current_exe().map_err(|error| error.to_string())?;
     let path = own.with_file_name(name);

@@ -66,7 +66,7 @@ pub(crate) fn column_names(columns: Columns<'_>) -> Value {
 
 fn packed(letters: &str, header: &Value, parts: &[&[f64]]) -> Vec<u8> {
     let mut header = header.to_string();
-    while header.len() % 4 != 0 {
+    while !header.len().is_multiple_of(4) {
         header.push(' ');
     }
     let numbers: usize = parts.iter().map(|part| part.len()).sum();

@@ -158,9 +158,12 @@ impl Keeper {
     /// # Errors
     /// It could not be written.
     pub(in crate::protocol) fn complete(&mut self) -> Result<(), IoError> {
-        self.write_now(None)?;
-        // Where it cannot be removed it does no harm.
+        self.wait()?;
+        // Before it is written, so that a run that has ended has none at whichever moment it is killed: until then the latest one
+        // is whole. Where it cannot be removed it does no harm.
         let _ = std::fs::remove_file(self.folder.join(PREVIOUS));
+        self.write_now(Some(LATEST))?;
+        (self.is_written, self.written) = (true, Instant::now());
         Ok(())
     }
 }
