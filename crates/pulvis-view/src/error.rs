@@ -36,22 +36,17 @@ pub enum ViewError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// A file of the run cannot be read, or the page cannot be written.
+    /// A file of the run cannot be read.
     #[error(transparent)]
     File(#[from] IoError),
-    /// A file cannot be written.
-    #[error("cannot write {}: {source}", .path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: std::io::Error,
-    },
+    /// The page cannot be written; an older file of this name is as it was.
+    #[error(transparent)]
+    Write(IoError),
 }
 
 impl ViewError {
     /// Whether what was asked for is to blame.
     pub fn is_bad_input(&self) -> bool {
-        !matches!(self, Self::Write { .. })
+        !matches!(self, Self::Write(_))
     }
 }

@@ -5,6 +5,7 @@ use crate::page::{INDEX, MODULES, STYLE};
 use crate::run::{Run, column_names, scalars};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use pulvis_io::checkpoint::write_text;
 use pulvis_io::vtk::{Frame, PolyData};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -59,7 +60,7 @@ pub fn export(folder: &Path, file: &Path) -> Result<ExportSummary, ViewError> {
     let series = run.series().map(|series| series.all());
     let data = json!({ "run": summary, "series": series, "frames": frames });
     let text = page(&data);
-    std::fs::write(file, &text).map_err(|source| ViewError::Write { path: file.to_owned(), source })?;
+    write_text(file, &text).map_err(ViewError::Write)?;
     Ok(ExportSummary { frames: chosen.len(), frames_of_run: count, one_of, bytes: text.len() })
 }
 

@@ -250,6 +250,9 @@ fn an_exported_run_holds_its_frames_and_needs_nothing_else() {
     run(folder.path());
     let file = folder.path().join("run.html");
     let written = export(folder.path(), &file).unwrap();
+    // What cannot be written is no mistake of the question, and leaves nothing half-written.
+    let nowhere = export(folder.path(), &folder.path().join("missing/a.html")).unwrap_err();
+    assert!(matches!(nowhere, ViewError::Write(_)) && !nowhere.is_bad_input(), "{nowhere}");
     assert_eq!((written.frames, written.frames_of_run, written.one_of), (2, 2, 1));
     let text = std::fs::read_to_string(&file).unwrap();
     assert_eq!(text.len(), written.bytes);

@@ -30,20 +30,14 @@ impl Binding {
 
 /// Calls `see` with every contact of a group that acts, and what holds it.
 pub(crate) fn view_bindings(views: Views<'_>, see: &mut dyn FnMut(&ContactView<'_>, &Binding)) {
-    let group = views.group;
-    let (mut memory, mut after) = (Vec::new(), Vec::new());
-    for block in (0..group.rows.len()).filter(|&block| group.active[block]) {
-        for lane in 0..group.occupancy(block) {
-            memory.clear();
-            memory.extend(group.columns(block).iter().map(|column| column.0[lane]));
-            after.clone_from(&memory);
-            let Some(view) = views.look(block, lane, &memory, &mut after) else { continue };
-            after.clone_from(&memory);
-            if let Some(binding) = views.binding(block, lane, &mut after) {
-                see(&view, &binding);
-            }
+    let mut columns = Vec::new();
+    views.each(&mut |block, lane, view| {
+        columns.clear();
+        columns.extend_from_slice(view.memory);
+        if let Some(binding) = views.binding(block, lane, &mut columns) {
+            see(view, &binding);
         }
-    }
+    });
 }
 
 impl Views<'_> {

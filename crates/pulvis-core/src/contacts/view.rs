@@ -72,18 +72,10 @@ pub(crate) struct Views<'a> {
 /// not change.
 pub(crate) fn view_contacts(views: Views<'_>, see: &mut dyn FnMut(&ContactView<'_>, [usize; 2])) {
     let group = views.group;
-    let (mut memory, mut after) = (Vec::new(), Vec::new());
-    for block in (0..group.rows.len()).filter(|&block| group.active[block]) {
-        for lane in 0..group.occupancy(block) {
-            memory.clear();
-            memory.extend(group.columns(block).iter().map(|column| column.0[lane]));
-            after.clone_from(&memory);
-            if let Some(view) = views.look(block, lane, &memory, &mut after) {
-                let rows = [group.first_row(block, lane), group.second_row(block, lane)];
-                see(&view, rows.map(|row| row as usize));
-            }
-        }
-    }
+    views.each(&mut |block, lane, view| {
+        let rows = [group.first_row(block, lane), group.second_row(block, lane)];
+        see(view, rows.map(|row| row as usize));
+    });
 }
 
 /// The response of a contact of a group over a step of zero duration; `columns` are its memory. As that of
@@ -104,6 +96,22 @@ pub(super) fn respond(group: &ContactGroup, seen: &Seen, columns: &mut [f64]) ->
 }
 
 impl<'a> Views<'a> {
+    /// Calls `see` with block, lane and view of every contact of the group that acts.
+    pub(super) fn each(&self, see: &mut dyn FnMut(usize, usize, &ContactView<'_>)) {
+        let group = self.group;
+        let (mut memory, mut after) = (Vec::new(), Vec::new());
+        for block in (0..group.rows.len()).filter(|&block| group.active[block]) {
+            for lane in 0..group.occupancy(block) {
+                memory.clear();
+                memory.extend(group.columns(block).iter().map(|column| column.0[lane]));
+                after.clone_from(&memory);
+                if let Some(view) = self.look(block, lane, &memory, &mut after) {
+                    see(block, lane, &view);
+                }
+            }
+        }
+    }
+
     /// How deep each contact of a block is.
     pub(crate) fn overlaps(self, block: usize) -> impl Iterator<Item = Deep> + 'a {
         (0..self.group.occupancy(block)).filter_map(move |lane| {
@@ -127,7 +135,7 @@ impl<'a> Views<'a> {
         Some(self.geometry(first, block, lane)?.motion.overlap)
     }
 
-    pub(super) fn look<'b>(
+    fn look<'b>(
         &self,
         block: usize,
         lane: usize,
