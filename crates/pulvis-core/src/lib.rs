@@ -13,6 +13,7 @@ mod neighbours;
 pub mod observation;
 mod particles;
 mod phases;
+mod ranks;
 mod simulation;
 mod time_step;
 pub mod walls;

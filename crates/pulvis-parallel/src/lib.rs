@@ -3,7 +3,8 @@
 //! Nothing here knows physics. A [`ThreadPool`](thread_pool::ThreadPool) hands out work by number,
 //! [`Shared`](shared::Shared) lets its workers write different parts of one slice, and a
 //! [`HandOver`](hand_over::HandOver) finds out which worker finishes a chunk that several contribute to. The engine shares memory between threads
-//! through these three only.
+//! through these three only. Processes that share no memory work together through an
+//! [`Exchange`](exchange::Exchange).
 //!
 //! `cargo xtask loom` tests the pool and the hand-over in every order of their operations (up to a number of switches
 //! between threads), `cargo xtask miri` looks for undefined behaviour.
@@ -18,6 +19,7 @@
 //! # Ok::<(), std::io::Error>(())
 //! ```
 
+pub mod exchange;
 pub mod hand_over;
 pub mod shared;
 mod sync;

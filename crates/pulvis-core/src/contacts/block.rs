@@ -41,6 +41,8 @@ pub(crate) struct LaneIndices(pub(crate) [[u32; WIDTH]; 2]);
 /// material near walls of another.
 #[derive(Clone, Debug)]
 pub(crate) struct ContactGroup {
+    /// The number of its pair of materials among the groups of [`Interactions`](super::Interactions).
+    pub(crate) number: usize,
     pub(crate) model: ContactModel,
     pub(crate) layout: MemoryLayout,
     /// How far beyond touching its contacts act [m].
@@ -94,6 +96,7 @@ pub(crate) struct Candidate {
 impl ContactGroup {
     /// A group without contacts, in the memory of a `spare` one.
     pub(crate) fn new(
+        number: usize,
         model: ContactModel,
         interaction_range: f64,
         partner: Partner,
@@ -105,6 +108,7 @@ impl ContactGroup {
         let (energies, totals) = (ContactEnergies::default(), GroupTotals::default());
         let Some(mut group) = spare else {
             return Self {
+                number,
                 model,
                 layout,
                 interaction_range,
@@ -133,6 +137,7 @@ impl ContactGroup {
         group.gap.clear();
         group.wall_forces.clear();
         Self {
+            number,
             model,
             layout,
             interaction_range,

@@ -59,9 +59,9 @@ impl BrokenBonds {
         &self.pairs
     }
 
-    /// Takes in the pairs of listed contacts.
-    pub(crate) fn take_in(&mut self, contacts: &ContactTable, ids: &[ParticleId]) {
-        let new: Vec<BrokenBond> = contacts.broken(ids).filter(|pair| !self.contains(*pair)).collect();
+    /// Takes in pairs, some of which may be known.
+    pub(crate) fn take_in(&mut self, broken: impl Iterator<Item = BrokenBond>) {
+        let new: Vec<BrokenBond> = broken.filter(|pair| !self.contains(*pair)).collect();
         if !new.is_empty() {
             self.pairs.extend(new);
             self.pairs.sort_unstable();
@@ -93,7 +93,8 @@ fn in_state<'a>(
 }
 
 impl ContactTable {
-    fn broken<'a>(&'a self, ids: &'a [ParticleId]) -> impl Iterator<Item = BrokenBond> + 'a {
+    /// The pairs of listed contacts whose bond has broken.
+    pub(crate) fn broken<'a>(&'a self, ids: &'a [ParticleId]) -> impl Iterator<Item = BrokenBond> + 'a {
         self.groups().flat_map(|group| in_state(group, ids, BROKEN))
     }
 

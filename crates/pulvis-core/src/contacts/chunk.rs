@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::block::ContactGroup;
+use super::totals::ChunkTotals;
 use crate::phases::Phases;
 
 /// Smallest and largest number of rows of a chunk: blocks of eight shall be full, and the chunk shall fit into a
@@ -31,6 +32,10 @@ pub(crate) struct Chunk {
     pub(crate) phases: Phases,
     /// Later chunks that this one contributes to.
     pub(crate) dependents: Vec<u32>,
+    /// Whether chunks of other ranks contribute to it, so that it is finished only when these have told what.
+    pub(crate) awaits_ranks: bool,
+    /// What its contacts come to in the last pass.
+    pub(crate) totals: ChunkTotals,
 }
 
 /// Upper bounds of how much the gaps of a chunk can have closed since the last rebuild [m]: gaps between particles, and

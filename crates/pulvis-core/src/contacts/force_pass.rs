@@ -54,6 +54,9 @@ pub(super) struct ForcePass<'a, F> {
     pub(super) sums: Shared<'a, Sums>,
     pub(super) hand_over: &'a HandOver,
     pub(super) halos: Halos<'a>,
+    /// The number of the first chunk of this rank, from which its hand-over counts, and the end.
+    pub(super) first: usize,
+    pub(super) end: usize,
     /// Called with the number of a chunk, its rows and the complete forces and torques on them.
     pub(super) finish: F,
 }
@@ -68,13 +71,16 @@ impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
         // SAFETY: the caller's; no other thread reads a chunk before it has counted down below.
         let (sums, chunk) = unsafe { (self.sums.get_mut(worker), self.chunks.get_mut(number)) };
         let sums = self.sum_contacts(number, chunk, sums);
+        chunk.totals.take_in(&chunk.groups, self.sweep.advance.stored);
         // From here on the chunk is only read, until the next pass.
         let (chunk, rows) = (&*chunk, chunk.rows.clone());
         let (own, halo) = sums.split_at_mut(rows.len());
         let start = self.halos.row_count + self.halos.starts[number];
         // SAFETY: only this chunk writes these slots; they are read after it has counted down.
         unsafe { forces_and_torques.range_mut(start..start + halo.len()) }.copy_from_slice(halo);
-        if self.hand_over.completes_at_once(number) {
+        let own_number = number - self.first;
+        let completes = self.hand_over.completes_at_once(own_number);
+        if completes && !chunk.awaits_ranks {
             // SAFETY: all chunks that contribute to this one have counted down, and no other thread finishes it.
             unsafe { self.complete(chunk, own) };
             (self.finish)(number, rows.clone(), own);
@@ -85,15 +91,15 @@ impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
         } else {
             // SAFETY: the sums of these rows, which are not complete.
             unsafe { forces_and_torques.range_mut(rows) }.copy_from_slice(own);
-            if self.hand_over.count_own(worker, number) {
+            if !completes && self.hand_over.count_own(worker, own_number) {
                 // SAFETY: the hand-over has told this thread alone to finish the chunk.
                 unsafe { self.finish_stored(number) };
             }
         }
-        for &later in &chunk.dependents {
-            if self.hand_over.count_down(worker, later as usize) {
+        for later in self.own_dependents(chunk) {
+            if self.hand_over.count_down(worker, later - self.first) {
                 // SAFETY: as above.
-                unsafe { self.finish_stored(later as usize) };
+                unsafe { self.finish_stored(later) };
             }
         }
     }
@@ -133,11 +139,30 @@ impl<F: Fn(usize, Range<usize>, &mut [ForceTorque])> ForcePass<'_, F> {
         sums
     }
 
-    /// Finishes a chunk whose own sums are stored in the slots of its rows.
+    /// The chunks of this rank that a chunk contributes to.
+    fn own_dependents<'b>(&self, chunk: &'b Chunk) -> impl Iterator<Item = usize> + use<'b, F> {
+        let end = self.end;
+        chunk.dependents.iter().map(|&later| later as usize).take_while(move |&later| later < end)
+    }
+
+    /// Finishes a chunk whose own sums are stored in the slots of its rows, unless other ranks contribute to it.
     ///
     /// # Safety
-    /// All chunks that contribute to this one have counted down, and no other thread finishes it.
+    /// All chunks of this rank that contribute to this one have counted down, and no other thread finishes it.
     pub(super) unsafe fn finish_stored(&self, number: usize) {
+        // SAFETY: the caller's.
+        unsafe {
+            if !self.chunks.get(number).awaits_ranks {
+                self.finish_awaiting(number);
+            }
+        }
+    }
+
+    /// The same where the contributions of other ranks are there.
+    ///
+    /// # Safety
+    /// As above.
+    pub(super) unsafe fn finish_awaiting(&self, number: usize) {
         // SAFETY: the caller's.
         unsafe {
             let chunk = self.chunks.get(number);

@@ -51,8 +51,6 @@ impl Listing {
     /// Lists the pairs of a chunk again; contacts get their memory back.
     pub(super) fn list(&mut self, chunk: &mut Chunk, sources: Sources<'_>) {
         let mut spare = std::mem::take(&mut chunk.groups).into_iter();
-        chunk.halo_contributions.clear();
-        chunk.dependents.clear();
         chunk.approach = Approach::default();
         chunk.phases = Phases::default();
         self.find_near(chunk, sources);
@@ -138,8 +136,8 @@ impl Listing {
                     Candidate { rows: [other, one], sums: [others, own], gap, crosses_boundary }
                 }
             }));
-            let mut group =
-                ContactGroup::new(model, around.interactions.range(index), Partner::Particle, spare.next());
+            let range = around.interactions.range(index);
+            let mut group = ContactGroup::new(index, model, range, Partner::Particle, spare.next());
             group.find_quantities(&around.particles.columns);
             let number = memory.layout_number(&group);
             group.reserve(candidates.len());
@@ -165,14 +163,14 @@ impl Listing {
         for (wall_number, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.present) {
             for &material in around.materials {
                 let Some(&model) = interactions.get(material, wall.material) else { continue };
-                let range = interactions.range(interactions.group(material, wall.material));
-                let (group, number) =
-                    groups[interactions.group(material, wall.material)].get_or_insert_with(|| {
-                        let mut group = ContactGroup::new(model, range, Partner::Wall, spare.next());
-                        group.find_quantities(&particles.columns);
-                        let number = memory.layout_number(&group);
-                        (group, number)
-                    });
+                let index = interactions.group(material, wall.material);
+                let range = interactions.range(index);
+                let (group, number) = groups[index].get_or_insert_with(|| {
+                    let mut group = ContactGroup::new(index, model, range, Partner::Wall, spare.next());
+                    group.find_quantities(&particles.columns);
+                    let number = memory.layout_number(&group);
+                    (group, number)
+                });
                 group.wall_forces.resize(walls.len(), WallForce::default());
                 self.find_at_wall(chunk, around, wall_number, material, range);
                 for block in self.candidates.chunks(WIDTH) {

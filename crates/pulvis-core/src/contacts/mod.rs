@@ -1,5 +1,6 @@
 //! The contact table: neighbour pairs in blocks of eight, and the memory of each contact.
 
+mod among_ranks;
 mod binding;
 mod block;
 mod bonds;
@@ -17,6 +18,7 @@ mod table;
 mod totals;
 mod view;
 
+pub(crate) use among_ranks::{HaloParts, Known};
 pub use binding::Binding;
 pub(crate) use binding::view_bindings;
 pub(crate) use block::ContactGroup;

@@ -3,9 +3,11 @@
 use std::borrow::Cow;
 
 use pulvis_contact::MemoryLayout;
+use pulvis_parallel::exchange::{ExchangeError, Message};
 
 use super::block::{ContactGroup, Partner};
 use super::chunk::Chunk;
+use crate::ranks::message::Numbers;
 use crate::thread_pool::ThreadPool;
 use crate::walls::WallFeature;
 
@@ -66,6 +68,76 @@ impl MemoryStore {
         self.chunks = memories;
     }
 
+    /// Writes the memory of every contact that other ranks will own into the message to its owner. `owner` answers with the
+    /// rank of a contact by its stored rows, the second of which may be that of a wall, and `layouts` are those of all
+    /// models in an order that all ranks know.
+    pub(crate) fn tell(
+        &self,
+        layouts: &[MemoryLayout],
+        own: usize,
+        owner: impl Fn(u32, u32) -> usize,
+        messages: &mut [Message],
+    ) {
+        let known = |layout: u32| layouts.iter().position(|known| *known == self.layouts[layout as usize]);
+        let known: Vec<usize> =
+            (0..self.layouts.len() as u32).map(|one| known(one).unwrap_or(usize::MAX)).collect();
+        for memory in &self.chunks {
+            for (index, entries) in memory.starts.windows(2).enumerate() {
+                let row = (memory.first_row + index) as u32;
+                for entry in entries[0] as usize..entries[1] as usize {
+                    let partner = memory.partners[entry];
+                    let rank = owner(row, partner);
+                    if rank == own {
+                        continue;
+                    }
+                    let Entry { layout, record } = memory.entries[entry];
+                    let width = self.layouts[layout as usize].columns();
+                    let head = [row, partner].map(f64::from);
+                    messages[rank].extend(head);
+                    messages[rank].push(known[layout as usize] as f64);
+                    messages[rank]
+                        .extend_from_slice(&memory.records[record as usize..record as usize + width]);
+                }
+            }
+        }
+    }
+
+    /// Takes in what other ranks have told, each of the chunks that it stored.
+    ///
+    /// # Errors
+    /// A message is damaged.
+    pub(crate) fn hear(&mut self, layouts: &[MemoryLayout], message: &[f64]) -> Result<(), ExchangeError> {
+        let damaged = || ExchangeError { reason: "memory of a contact that no rank can have".to_owned() };
+        let mut numbers = Numbers::of(message);
+        let mut touched = Vec::new();
+        while !numbers.is_empty() {
+            let [row, partner] = [numbers.next()? as u32, numbers.next()? as u32];
+            let layout = *layouts.get(numbers.next_index()?).ok_or_else(damaged)?;
+            let records = numbers.take(layout.columns())?;
+            let number = match self.layouts.iter().position(|known| *known == layout) {
+                Some(number) => number,
+                None => {
+                    self.layouts.push(layout);
+                    self.layouts.len() - 1
+                }
+            };
+            let chunk = row.checked_div(self.length).ok_or_else(damaged)? as usize;
+            let memory = self.chunks.get_mut(chunk).ok_or_else(damaged)?;
+            if touched.last() != Some(&chunk) {
+                touched.push(chunk);
+            }
+            let entry = Entry { layout: number as u32, record: memory.records.len() as u32 };
+            let index = row - memory.first_row as u32;
+            memory.records.extend_from_slice(records);
+            memory.unsorted.push(([index, partner], entry));
+            memory.starts[index as usize + 1] += 1;
+        }
+        for chunk in touched {
+            self.chunks[chunk].place();
+        }
+        Ok(())
+    }
+
     /// The layout number of a group, for [`find`](Self::find).
     pub(crate) fn layout_number(&self, group: &ContactGroup) -> LayoutNumber {
         self.layouts.iter().position(|known| *known == group.layout).map(|number| number as u32)
@@ -102,7 +174,6 @@ impl ChunkMemory {
         self.records.clear();
         self.first_row = chunk.rows.start;
         self.starts.resize(chunk.rows.len() + 1, 0);
-        let mut unsorted = std::mem::take(&mut self.unsorted);
         for group in &chunk.groups {
             let layout = store.layout_number(group).unwrap_or_default();
             group.for_each_memory(&mut self.records, |block, lane, record| {
@@ -112,12 +183,19 @@ impl ChunkMemory {
                     Partner::Wall => wall_partner(WallFeature::from_number(group.second_row(block, lane))),
                 };
                 let index = first.min(partner) - self.first_row as u32;
-                unsorted.push(([index, first.max(partner)], Entry { layout, record: record as u32 }));
+                let entry = Entry { layout, record: record as u32 };
+                self.unsorted.push(([index, first.max(partner)], entry));
                 self.starts[index as usize + 1] += 1;
             });
         }
-        for row in 0..chunk.rows.len() {
-            self.starts[row + 1] += self.starts[row];
+        self.place();
+    }
+
+    /// Puts the unsorted entries in the order of their rows; `starts` holds the number of those of each row, one further.
+    fn place(&mut self) {
+        let mut unsorted = std::mem::take(&mut self.unsorted);
+        for row in 1..self.starts.len() {
+            self.starts[row] += self.starts[row - 1];
         }
         self.entries.resize(unsorted.len(), Entry::default());
         self.partners.resize(unsorted.len() + 8, 0);

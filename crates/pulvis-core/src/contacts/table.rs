@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use pulvis_contact::ContactEnergies;
-use pulvis_math::{F64Array, InstructionSet, max_or_nan};
+use pulvis_math::{InstructionSet, max_or_nan};
 use pulvis_parallel::hand_over::HandOver;
 
 use super::Interactions;
@@ -26,11 +26,18 @@ use pulvis_boundary::{Images, UpperTriangular};
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactTable {
     chunks: Vec<Chunk>,
+    /// The chunks that this rank lists and computes; all of them where it works alone. Of others it knows the halo rows
+    /// that are its own.
+    own: Range<usize>,
+    /// Pairs in the lists of other ranks.
+    candidates_elsewhere: usize,
     row_count: usize,
     /// The rows of all halos, chunk after chunk.
     halos: Vec<u32>,
     /// Where the halo of each chunk begins, and the end.
     halo_starts: Vec<usize>,
+    /// The chunks of this rank that other ranks contribute to.
+    awaiting: Vec<usize>,
     /// Which chunks are complete.
     hand_over: HandOver,
     /// The totals of an imported state, until forces are computed.
@@ -77,6 +84,26 @@ impl ContactTable {
         &self.chunks
     }
 
+    /// Where the halo of a chunk begins among those of all.
+    pub(super) fn halo_start(&self, number: usize) -> usize {
+        self.halo_starts[number]
+    }
+
+    /// Sets how many pairs are in the lists of other ranks.
+    pub(crate) fn set_candidates_elsewhere(&mut self, pairs: usize) {
+        self.candidates_elsewhere = pairs;
+    }
+
+    /// Number of rows.
+    pub(crate) fn row_count(&self) -> usize {
+        self.row_count
+    }
+
+    /// The chunks of this rank.
+    pub(crate) fn own(&self) -> Range<usize> {
+        self.own.clone()
+    }
+
     /// Copies the memory of all contacts into `store`.
     pub(crate) fn remember(&self, store: &mut MemoryStore, pool: &ThreadPool) {
         store.gather(&self.chunks, pool);
@@ -93,25 +120,61 @@ impl ContactTable {
     ) -> usize {
         if self.row_count != around.particles.len() {
             self.chunks = cut(around.particles.len());
+            self.row_count = around.particles.len();
         }
+        self.list(0..self.chunks.len(), around, grid, memory, pool);
+        self.candidates_elsewhere = 0;
+        self.link()
+    }
+
+    /// The same for the chunks of this rank alone; others have none afterwards. They are to be [linked](Self::link) when
+    /// the ranks have told each other their halos.
+    pub(crate) fn list(
+        &mut self,
+        own: Range<usize>,
+        around: &Surroundings<'_>,
+        grid: &CellGrid,
+        memory: &MemoryStore,
+        pool: &ThreadPool,
+    ) {
+        self.keep_only(own.clone());
         self.listings.resize_with(pool.threads(), Listing::default);
-        let count = self.chunks.len();
-        let (chunks, listings) = (Shared::new(&mut self.chunks), Shared::new(&mut self.listings));
+        let chunks = Shared::new(&mut self.chunks[own.clone()]);
+        let listings = Shared::new(&mut self.listings);
         let sources = Sources { around, grid, memory };
-        pool.for_each_number(count, |worker, number| {
+        pool.for_each_number(own.len(), |worker, number| {
             // SAFETY: every worker is told its own number, and every chunk is listed once.
             let (listing, chunk) = unsafe { (listings.get_mut(worker), chunks.get_mut(number)) };
             listing.list(chunk, sources);
         });
-        self.row_count = around.particles.len();
-        self.link(self.row_count)
     }
 
-    /// Gives each halo row a slot, after the slots of all `rows`, and links each chunk with the chunks that it
+    /// Works alone again, when the contacts of all chunks are there. Returns the number of all slots.
+    pub(crate) fn take_all(&mut self) -> usize {
+        (self.own, self.candidates_elsewhere) = (0..self.chunks.len(), 0);
+        self.link()
+    }
+
+    /// Keeps the contacts of these chunks only.
+    pub(crate) fn keep_only(&mut self, own: Range<usize>) {
+        for (number, chunk) in self.chunks.iter_mut().enumerate() {
+            if !own.contains(&number) {
+                chunk.groups.clear();
+                chunk.halo.clear();
+            }
+        }
+        self.own = own;
+    }
+
+    /// Gives each halo row a slot, after the slots of all rows, and links each chunk with the chunks that it
     /// contributes to. Returns the number of all slots.
-    fn link(&mut self, rows: usize) -> usize {
+    pub(crate) fn link(&mut self) -> usize {
         self.halos.clear();
         self.halo_starts.clear();
+        for chunk in &mut self.chunks {
+            chunk.halo_contributions.clear();
+            chunk.dependents.clear();
+        }
         for number in 0..self.chunks.len() {
             let start = self.halos.len();
             self.halo_starts.push(start);
@@ -131,15 +194,27 @@ impl ContactTable {
             self.chunks[number].halo = halo;
         }
         self.halo_starts.push(self.halos.len());
-        self.hand_over = HandOver::new(self.chunks.iter().map(|chunk| chunk.halo_contributions.len() as u32));
-        rows + self.halos.len()
+        let first_slot = self.halo_starts[self.own.start];
+        let of_rank = |part: &&HaloContribution| part.slots.start >= first_slot;
+        let own = &mut self.chunks[self.own.clone()];
+        self.awaiting.clear();
+        for (chunk, number) in own.iter_mut().zip(self.own.clone()) {
+            chunk.awaits_ranks = !chunk.halo_contributions.iter().all(|part| of_rank(&part));
+            if chunk.awaits_ranks {
+                self.awaiting.push(number);
+            }
+        }
+        self.hand_over = HandOver::new(
+            own.iter().map(|chunk| chunk.halo_contributions.iter().filter(of_rank).count() as u32),
+        );
+        self.row_count + self.halos.len()
     }
 
     /// Bounds by how much gaps can have closed, from the displacements of the rows of every chunk and of walls since the
     /// last rebuild [m]. The two bodies of a contact of a chunk are two of its rows, or one of its rows and one of a
     /// chunk that it contributes to.
     pub(crate) fn close_gaps(&mut self, moved: impl Fn(usize) -> Moved, walls: f64) {
-        for (number, chunk) in self.chunks.iter_mut().enumerate() {
+        for (number, chunk) in self.chunks.iter_mut().enumerate().take(self.own.end).skip(self.own.start) {
             let own = moved(number);
             let others = chunk.dependents.iter().map(|&other| moved(other as usize).longest);
             chunk.approach = Approach {
@@ -149,15 +224,19 @@ impl ContactTable {
         }
     }
 
-    /// Computes the forces and torques of all contacts. `finish` is called with the number of a chunk, its rows and the
-    /// forces and torques on them, when these are complete and no thread uses the rows any more.
-    pub(crate) fn sweep(
+    /// Computes the forces and torques of all contacts of this rank. `finish` is called with the number of a chunk, its
+    /// rows and the forces and torques on them, when these are complete and no thread uses the rows any more.
+    ///
+    /// `swap` is called when all is computed, where other ranks contribute to chunks of this one: it fills the slots of
+    /// their halos. The chunks that await them are finished afterwards, unless it fails.
+    pub(crate) fn sweep<E>(
         &mut self,
         sweep: &Sweep<'_>,
         pool: &ThreadPool,
+        swap: impl FnOnce() -> Result<(), E>,
         finish: impl Fn(usize, Range<usize>, &mut [ForceTorque]) + Sync,
-    ) {
-        let count = self.chunks.len();
+    ) -> Result<(), E> {
+        let Range { start: first, end } = self.own;
         self.restored = None;
         self.sums.resize_with(pool.threads(), Sums::default);
         self.hand_over.begin(pool.threads());
@@ -167,32 +246,33 @@ impl ContactTable {
             sums: Shared::new(&mut self.sums),
             hand_over: &self.hand_over,
             halos: Halos { rows: &self.halos, starts: &self.halo_starts, row_count: self.row_count },
+            first,
+            end,
             finish,
         };
         // SAFETY: every worker is told its own number, and every chunk is computed once.
-        let compute = |worker, number| unsafe { pass.compute(worker, number) };
-        pool.for_each_number_in_phases(count, compute, |worker, phase| {
+        let compute = |worker, number| unsafe { pass.compute(worker, first + number) };
+        pool.for_each_number_in_phases(end - first, compute, |worker, phase| {
             while let Some(number) = pass.hand_over.take(worker, phase) {
                 // SAFETY: nobody else has taken it.
-                unsafe { pass.finish_stored(number) };
+                unsafe { pass.finish_stored(first + number) };
             }
         });
+        swap()?;
+        pool.for_each_number(self.awaiting.len(), |_, number| {
+            // SAFETY: all contributions are there, and every number is handed out once.
+            unsafe { pass.finish_awaiting(self.awaiting[number]) };
+        });
+        Ok(())
     }
 
-    /// Sums over all contacts, group by group: the same for any number of threads.
+    /// Sums over all contacts, chunk by chunk: the same for any number of threads and ranks.
     pub(crate) fn totals(&self) -> ContactTotals {
         if let Some(restored) = self.restored {
             return restored;
         }
         let mut sum = ContactTotals::default();
-        for group in self.groups() {
-            let (touching, overlap_max, virial) = group.totals.sums();
-            let (pairs, at_walls) = match group.partner {
-                Partner::Particle => (touching, 0.0),
-                Partner::Wall => (0.0, touching),
-            };
-            sum += ContactTotals { pairs, at_walls, overlap_max, virial };
-        }
+        self.chunks.iter().for_each(|chunk| sum += chunk.totals.observed);
         sum
     }
 
@@ -203,22 +283,20 @@ impl ContactTable {
 
     /// The largest k/m_r of all contacts whose law does not bound its stiffness in the last pass [1/s²].
     pub(crate) fn highest_rate_squared(&self) -> f64 {
-        self.groups().map(|group| group.rate_squared).fold(0.0, max_or_nan)
+        self.chunks.iter().map(|chunk| chunk.totals.rate_squared).fold(0.0, max_or_nan)
     }
 
-    /// The sum of all contacts' energies, group by group: the same for any number of threads.
+    /// The sum of all contacts' energies, chunk by chunk: the same for any number of threads and ranks.
     pub(crate) fn energies(&self) -> ContactEnergies {
-        let mut sum = ContactEnergies::<F64Array<8>>::default();
-        for group in self.groups() {
-            sum += group.energies;
-        }
-        sum.sum_lanes()
+        let mut sum = ContactEnergies::default();
+        self.chunks.iter().for_each(|chunk| sum += chunk.totals.energies);
+        sum
     }
 
     /// Adds the force and torque of every wall on the particles to its entry in `forces`.
     pub(crate) fn add_wall_forces(&self, forces: &mut [WallForce]) {
-        for group in self.groups() {
-            for (sum, &force) in forces.iter_mut().zip(&group.wall_forces) {
+        for chunk in &self.chunks {
+            for (sum, &force) in forces.iter_mut().zip(&chunk.totals.wall_forces) {
                 *sum += force;
             }
         }
@@ -252,6 +330,11 @@ impl ContactTable {
 
     /// Number of neighbour pairs.
     pub(crate) fn candidates(&self) -> usize {
+        self.candidates_here() + self.candidates_elsewhere
+    }
+
+    /// Number of those that this rank lists.
+    pub(crate) fn candidates_here(&self) -> usize {
         self.groups().map(ContactGroup::len).sum()
     }
 

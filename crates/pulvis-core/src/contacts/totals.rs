@@ -2,7 +2,11 @@
 
 use std::ops::AddAssign;
 
-use pulvis_math::{F64Array, Real, Simd8, Vector3};
+use pulvis_contact::ContactEnergies;
+use pulvis_math::{F64Array, Real, Simd8, Vector3, max_or_nan};
+
+use super::block::{ContactGroup, Partner};
+use crate::walls::WallForce;
 
 /// Sums over all contacts at the end of the last advance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,6 +33,56 @@ impl AddAssign for ContactTotals {
             for (sum, value) in row.iter_mut().zip(others) {
                 *sum += value;
             }
+        }
+    }
+}
+
+/// What the contacts of a chunk come to in a pass. Sums over all contacts are taken over chunks, in their order: the same
+/// for any number of threads, and of ranks, which tell each other these.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ChunkTotals {
+    /// Energies.
+    pub(crate) energies: ContactEnergies,
+    /// The largest k/m_r of a contact whose law does not bound its stiffness [1/s²].
+    pub(crate) rate_squared: f64,
+    /// Forces and torques on the particles, wall by wall; empty where none is near.
+    pub(crate) wall_forces: Vec<WallForce>,
+    /// For observation; of the last pass of an advance.
+    pub(crate) observed: ContactTotals,
+}
+
+impl ChunkTotals {
+    /// Takes in what the last pass has stored in the groups of the chunk; `observes` tells whether it was the last of an
+    /// advance.
+    pub(super) fn take_in(&mut self, groups: &[ContactGroup], observes: bool) {
+        let mut energies = ContactEnergies::<F64Array<8>>::default();
+        self.rate_squared = 0.0;
+        self.wall_forces.fill(WallForce::default());
+        for group in groups {
+            energies += group.energies;
+            self.rate_squared = max_or_nan(self.rate_squared, group.rate_squared);
+            if self.wall_forces.len() < group.wall_forces.len() {
+                self.wall_forces.resize(group.wall_forces.len(), WallForce::default());
+            }
+            for (sum, &force) in self.wall_forces.iter_mut().zip(&group.wall_forces) {
+                *sum += force;
+            }
+        }
+        self.energies = energies.sum_lanes();
+        if observes {
+            self.observe(groups);
+        }
+    }
+
+    fn observe(&mut self, groups: &[ContactGroup]) {
+        self.observed = ContactTotals::default();
+        for group in groups {
+            let (touching, overlap_max, virial) = group.totals.sums();
+            let (pairs, at_walls) = match group.partner {
+                Partner::Particle => (touching, 0.0),
+                Partner::Wall => (0.0, touching),
+            };
+            self.observed += ContactTotals { pairs, at_walls, overlap_max, virial };
         }
     }
 }

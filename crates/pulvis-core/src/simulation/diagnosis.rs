@@ -77,7 +77,20 @@ impl Simulation {
             return Ok(());
         }
         let least = if self.first_deep.is_some() { most } else { most.min(DEEP) };
-        let Some((deep, overlap, radius)) = self.deepest(least) else { return Ok(()) };
+        let found = self.deepest(least);
+        if self.is_shared() {
+            let is_anywhere = self.on_any_rank(found.is_some());
+            if !self.agreed(is_anywhere)? {
+                return Ok(());
+            }
+            // It is rare: all ranks look at everything, see the same, and share the work out anew.
+            let gathered = self.gather_state();
+            self.agreed(gathered)?;
+            let checked = self.check_overlaps();
+            self.share_out()?;
+            return checked;
+        }
+        let Some((deep, overlap, radius)) = found else { return Ok(()) };
         if self.first_deep.is_none() && overlap > DEEP {
             self.first_deep = self.deep_contact(deep, overlap, radius);
         }

@@ -185,6 +185,12 @@ pub struct StepError {
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum Alarm {
+    /// Another rank does not answer any more, or not as it should.
+    #[error("the ranks cannot go on together: {reason}; the last checkpoint is the state to go on from")]
+    RankLost {
+        /// What happened.
+        reason: String,
+    },
     /// A quantity of a particle is NaN or infinite.
     #[error(
         "the {quantity} of particle {id} is not a finite number; the time step is too long for the forces that act, or two centres coincide"
@@ -346,7 +352,8 @@ impl Alarm {
             | Self::BeyondSpeed { id, .. }
             | Self::BehindWall { id, .. } => vec![id],
             Self::Overlap { id, other, .. } => vec![id, other],
-            Self::WallLost { .. }
+            Self::RankLost { .. }
+            | Self::WallLost { .. }
             | Self::WallTooFast { .. }
             | Self::WallsCrossed { .. }
             | Self::TooStiff { .. }

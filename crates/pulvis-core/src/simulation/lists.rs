@@ -1,5 +1,9 @@
 //! Rebuilds of the neighbour list.
 
+use std::ops::Range;
+
+use pulvis_parallel::exchange::ExchangeError;
+
 use super::{Outcome, Simulation};
 use crate::contacts::Surroundings;
 use crate::neighbours::{CellGrid, Moved};
@@ -58,11 +62,31 @@ impl Simulation {
 
     pub(super) fn renew_candidates(&mut self) {
         let mut clock = Stopwatch::start(self.phases.is_some());
+        self.remember_contacts();
+        self.rebuild(None);
+        self.note_time_of_list(&mut clock);
+    }
+
+    /// The same within an advance that ranks share, where all rows are known to all.
+    pub(super) fn renew_among_ranks(&mut self) -> Result<(), ExchangeError> {
+        let mut clock = Stopwatch::start(self.phases.is_some());
+        self.tell_broken_bonds()?;
+        self.remember_contacts();
+        let (grid, order) = self.sort_rows();
+        self.list_among_ranks(&grid, &order)?;
+        self.former_rows = order;
+        self.note_time_of_list(&mut clock);
+        Ok(())
+    }
+
+    fn remember_contacts(&mut self) {
         self.phases = self.phases();
         self.choose_skin();
         self.note_broken_bonds();
         self.contacts.remember(&mut self.memory, &self.pool);
-        self.rebuild(None);
+    }
+
+    fn note_time_of_list(&mut self, clock: &mut Stopwatch) {
         self.rebuilds += 1;
         if let Some(phases) = &mut self.phases {
             clock.lap(&mut phases.neighbours);
@@ -71,7 +95,7 @@ impl Simulation {
 
     /// Takes note of bonds that have broken since the last rebuild. To be called before rows change.
     pub(super) fn note_broken_bonds(&mut self) {
-        self.broken_bonds.take_in(&self.contacts, &self.particles.id);
+        self.broken_bonds.take_in(self.contacts.broken(&self.particles.id));
     }
 
     /// Sets the skin that suits the number of neighbour pairs in the present list, as far as periods allow. Returns whether
@@ -124,16 +148,7 @@ impl Simulation {
     /// Puts the particles into cell order and lists all pairs within interaction range and skins. If particles were inserted
     /// or removed since the last rebuild, `former` holds the row at that time for each present row.
     pub(super) fn rebuild(&mut self, former: Option<&[u32]>) {
-        self.wrap();
-        // The flow brings touching particles nearer by about half of their strain.
-        let flow = self.cell.rate.bound() * self.mean_radius;
-        self.skin.renew(&self.particles, flow, self.time_step, &self.pool);
-        self.note_list_of_cell();
-        self.skin.renew_walls(&self.walls);
-        let (grid, order) =
-            CellGrid::sort(&self.domain, self.skin.positions(), self.interactions.longest_range());
-        self.particles.reorder(&order, &self.pool);
-        self.skin.reorder(&order, &self.pool);
+        let (grid, order) = self.sort_rows();
         match former {
             Some(former) => {
                 let former_rows: Vec<u32> = order.iter().map(|&row| former[row as usize]).collect();
@@ -144,9 +159,41 @@ impl Simulation {
         self.former_rows = order;
     }
 
+    /// Puts the particles into cell order; row k is what was row `order[k]`.
+    fn sort_rows(&mut self) -> (CellGrid, Vec<u32>) {
+        self.wrap();
+        // The flow brings touching particles nearer by about half of their strain.
+        let flow = self.cell.rate.bound() * self.mean_radius;
+        self.skin.renew(&self.particles, flow, self.time_step, &self.pool);
+        self.note_list_of_cell();
+        self.skin.renew_walls(&self.walls);
+        let (grid, order) =
+            CellGrid::sort(&self.domain, self.skin.positions(), self.interactions.longest_range());
+        self.particles.reorder(&order, &self.pool);
+        self.skin.reorder(&order, &self.pool);
+        (grid, order)
+    }
+
     /// Lists the neighbour pairs of particles in cell order. `former_rows` are their rows at the last rebuild.
     pub(super) fn list_candidates(&mut self, grid: &CellGrid, former_rows: &[u32]) {
-        let around = Surroundings {
+        let mut contacts = std::mem::take(&mut self.contacts);
+        let slots = contacts.rebuild(&self.surroundings(former_rows), grid, &self.memory, &self.pool);
+        self.contacts = contacts;
+        self.particles.forces_and_torques.resize(slots, ForceTorque::default());
+        self.finish_list();
+    }
+
+    /// The same for the chunks of this rank; others have none.
+    pub(super) fn list_own(&mut self, own: Range<usize>, grid: &CellGrid, former_rows: &[u32]) {
+        let mut contacts = std::mem::take(&mut self.contacts);
+        contacts.list(own, &self.surroundings(former_rows), grid, &self.memory, &self.pool);
+        self.contacts = contacts;
+        self.finish_list();
+    }
+
+    /// What a list is made from.
+    fn surroundings<'a>(&'a self, former_rows: &'a [u32]) -> Surroundings<'a> {
+        Surroundings {
             particles: &self.particles,
             order: former_rows,
             materials: &self.materials,
@@ -155,10 +202,11 @@ impl Simulation {
             images: self.domain.images(),
             skin: &self.skin,
             instructions: self.instructions,
-        };
-        let slots = self.contacts.rebuild(&around, grid, &self.memory, &self.pool);
+        }
+    }
+
+    fn finish_list(&mut self) {
         self.contacts.restore_broken(&self.particles.id, &self.broken_bonds, &self.pool);
-        self.particles.forces_and_torques.resize(slots, ForceTorque::default());
         self.outcomes.clear();
         let moved = Moved::nowhere(self.skin.thinnest);
         self.outcomes.resize(self.contacts.chunks().len(), Outcome { moved, ..Outcome::default() });

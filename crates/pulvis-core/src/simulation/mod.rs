@@ -11,6 +11,7 @@ mod limits;
 mod lists;
 mod observation;
 mod observe;
+mod ranks;
 mod state;
 mod steps;
 mod switch;
@@ -31,6 +32,7 @@ use crate::ledger::Running;
 use crate::neighbours::{Moved, Skin};
 use crate::particles::{MaterialIndex, Particle, Particles};
 use crate::phases::Phases;
+use crate::ranks::Ranks;
 use crate::thread_pool::ThreadPool;
 use crate::walls::{
     FaceArea, Shape, Wall, WallFeature, WallForce, WallMotion, WallNow, WallShape, WallState,
@@ -104,6 +106,8 @@ pub struct Simulation {
     /// The first contact that was deeper than contacts should be.
     first_deep: Option<DeepContact>,
     rebuilds: u64,
+    /// The ranks that share the work, if there are several.
+    ranks: Option<Box<Ranks>>,
 }
 
 /// The results of the integration of a chunk of rows.
@@ -225,6 +229,7 @@ impl Simulation {
             limits: Limits::NONE,
             first_deep: None,
             rebuilds: 0,
+            ranks: None,
             walls,
         };
         simulation.list_materials();

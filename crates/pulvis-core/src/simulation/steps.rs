@@ -1,6 +1,7 @@
 //! Steps in time.
 
 use pulvis_math::min_or_nan;
+use pulvis_parallel::exchange::ExchangeError;
 
 use super::{Simulation, StepError};
 use crate::contacts::{Advance, KinematicColumns, Sweep};
@@ -34,6 +35,12 @@ impl Simulation {
         if steps == 0 {
             return Ok(());
         }
+        self.share_out()?;
+        let taken = self.take_steps(steps);
+        self.bring_together(taken)
+    }
+
+    fn take_steps(&mut self, steps: u64) -> Result<(), StepError> {
         let deforms = self.cell_moves()?;
         self.kick_and_drift();
         for left in (0..steps).rev() {
@@ -46,9 +53,12 @@ impl Simulation {
             let surveys_energy = self.step.is_multiple_of(ENERGY_SURVEY);
             // How a cell deforms next may depend on all forces, and its work on the velocities at their time.
             let pauses = surveys_energy || deforms;
-            let background_power = self.forces_and_kick(false, left > 0 && !pauses);
+            let swept = self.forces_and_kick(false, left > 0 && !pauses);
+            let background_power = self.agreed(swept)?;
             self.finish_walls();
             if deforms {
+                let gathered = self.gather_rows_at_end();
+                self.agreed(gathered)?;
                 self.finish_cell();
             }
             self.time += self.time_step;
@@ -67,6 +77,8 @@ impl Simulation {
     /// Draws up the ledger: its scale grows with the energy that is in motion now, and its error must stay small, as must
     /// speeds and overlaps.
     fn survey_energy(&mut self) -> Result<(), StepError> {
+        let gathered = self.gather_rows_at_end();
+        self.agreed(gathered)?;
         let ledger = self.ledger();
         self.running.scale = ledger.scale;
         self.check_energy(&ledger)?;
@@ -76,11 +88,14 @@ impl Simulation {
 
     /// First half kick and drift.
     fn kick_and_drift(&mut self) {
-        let chunks = self.contacts.chunks();
+        self.forget_movement();
+        let mut work = Stopwatch::start(self.is_shared());
+        let own = self.contacts.own();
+        let chunks = &self.contacts.chunks()[own.clone()];
         let (instructions, step) = (self.instructions, self.step_of_rows(self.time_step));
         let columns = Columns::of(&mut self.particles);
         let (background, timed) = (&self.background, self.phases.is_some());
-        self.pool.for_each(&mut self.outcomes, |number, outcome| {
+        self.pool.for_each(&mut self.outcomes[own], |number, outcome| {
             let mut clock = Stopwatch::start(timed);
             let rows = chunks[number].rows.clone();
             // SAFETY: chunks have different rows.
@@ -97,6 +112,9 @@ impl Simulation {
             outcome.drift_on(step.time_step);
             clock.lap(&mut outcome.seconds);
         });
+        if let Some(ranks) = &mut self.ranks {
+            work.lap(&mut ranks.seconds);
+        }
     }
 
     fn step_of_rows(&self, time_step: f64) -> Step {
@@ -113,10 +131,14 @@ impl Simulation {
         if surveyed {
             self.survey();
         }
+        let told = self.tell_movement();
+        self.agreed(told)?;
         let closing = self.closing_of_cell();
         let mut holds = self.skin.holds(self.left_of_skins() - closing, walls);
         if !surveyed && !holds {
             self.survey();
+            let told = self.tell_movement();
+            self.agreed(told)?;
             holds = self.skin.holds(self.left_of_skins() - closing, walls);
         }
         if holds {
@@ -124,13 +146,20 @@ impl Simulation {
             self.contacts.close_gaps(|chunk| outcomes[chunk].moved.farther(closing), walls);
             return Ok(());
         }
+        let gathered = self.gather_kinematics();
+        self.agreed(gathered)?;
         self.check_movement()?;
         if let Some(carried) = self.carried() {
             self.skin.carry(&carried);
             self.fit_skin_to_cell()?;
         }
         self.skin.adapt(&self.particles.position, &self.pool);
-        self.renew_candidates();
+        if self.is_shared() {
+            let renewed = self.renew_among_ranks();
+            self.agreed(renewed)?;
+        } else {
+            self.renew_candidates();
+        }
         self.check_overlaps()
     }
 
@@ -141,9 +170,12 @@ impl Simulation {
 
     /// Measures the displacements of all particles since the last rebuild.
     fn survey(&mut self) {
-        let (chunks, skin, positions) = (self.contacts.chunks(), &self.skin, &self.particles.position);
+        self.forget_movement();
+        let own = self.contacts.own();
+        let chunks = &self.contacts.chunks()[own.clone()];
+        let (skin, positions) = (&self.skin, &self.particles.position);
         let (instructions, carried) = (self.instructions, self.carried());
-        self.pool.for_each(&mut self.outcomes, |number, outcome| {
+        self.pool.for_each(&mut self.outcomes[own], |number, outcome| {
             let rows = chunks[number].rows.clone();
             outcome.moved = match &carried {
                 None => skin.moved(rows, positions, instructions),
@@ -185,7 +217,10 @@ impl Simulation {
     /// kick and the drift of the next step. With `at_rest`, no time has passed since the last forces.
     ///
     /// Returns the power of the drag [W]. The force of each wall on the particles is stored in `on_particles`.
-    fn forces_and_kick(&mut self, at_rest: bool, onwards: bool) -> f64 {
+    ///
+    /// # Errors
+    /// A rank is lost.
+    fn forces_and_kick(&mut self, at_rest: bool, onwards: bool) -> Result<f64, ExchangeError> {
         self.walls_now.clear();
         for (wall, state) in self.walls.iter().zip(&self.wall_states) {
             let motion = if at_rest { state.now_at_rest(wall) } else { state.now(wall) };
@@ -217,7 +252,21 @@ impl Simulation {
             advance: &advance,
             keep: !onwards,
         };
-        self.contacts.sweep(&sweep, &self.pool, |number, rows, forces_and_torques| {
+        let mut work = Stopwatch::start(self.ranks.as_ref().is_some_and(|ranks| ranks.shares));
+        let mut ranks = self.ranks.as_deref_mut().filter(|ranks| ranks.shares);
+        if let Some(ranks) = &mut ranks {
+            ranks.swap_rows(sweep.moving, step.predicts_angular_velocities)?;
+            work = Stopwatch::start(true);
+        }
+        let first_slot = self.contacts.row_count();
+        let swap = || match &mut ranks {
+            Some(ranks) => {
+                work.lap(&mut ranks.seconds);
+                ranks.swap_sums(sweep.forces_and_torques, first_slot)
+            }
+            None => Ok(()),
+        };
+        let swept = self.contacts.sweep(&sweep, &self.pool, swap, |number, rows, forces_and_torques| {
             // SAFETY: each chunk is finished once, and no thread reads its rows any more.
             unsafe {
                 let outcome = outcomes.get_mut(number);
@@ -236,9 +285,11 @@ impl Simulation {
             }
         });
         self.particles.columns = quantities;
+        swept?;
+        self.tell_totals(!onwards)?;
         self.on_particles.fill(WallForce::default());
         self.contacts.add_wall_forces(&mut self.on_particles);
-        self.outcomes.iter().map(|outcome| outcome.kicked.power).sum()
+        Ok(self.outcomes.iter().map(|outcome| outcome.kicked.power).sum())
     }
 
     /// Forces of the present state without a step. The memory of contacts changes only as the laws change it at a step of zero
@@ -255,7 +306,8 @@ impl Simulation {
         }
         // No block is skipped: after a switch, any pair may act at once.
         self.contacts.close_gaps(|_| Moved::ANYWHERE, f64::INFINITY);
-        let background_power = self.forces_and_kick(true, false);
+        // Every rank computes all of it.
+        let Ok(background_power) = self.forces_and_kick(true, false) else { return };
         self.running.take_in(self.contacts.energies(), background_power, 0.0);
         for (state, &force) in self.wall_states.iter_mut().zip(&self.on_particles) {
             state.load = -force;

@@ -56,7 +56,9 @@ impl Simulation {
             return Err(self.alarm(Alarm::CellTooFast { strain, most: MOST_STRAIN }));
         }
         let flow = FlowStep::new(&rate, time_step);
-        let chunks = self.contacts.chunks();
+        self.forget_movement();
+        let own = self.contacts.own();
+        let chunks = &self.contacts.chunks()[own.clone()];
         let particles = &mut self.particles;
         let positions = Shared::new(&mut particles.position);
         let velocities = Shared::new(&mut particles.velocity);
@@ -64,7 +66,7 @@ impl Simulation {
         // The displacement relative to the flow grows with the flow, by less than this beside the drift.
         let growth = 2.0 * strain;
         let thickest = self.skin.thickest;
-        self.pool.for_each(&mut self.outcomes, |number, outcome| {
+        self.pool.for_each(&mut self.outcomes[own], |number, outcome| {
             let rows = chunks[number].rows.clone();
             // SAFETY: chunks have different rows.
             let (positions, velocities, predicted) = unsafe {

@@ -36,6 +36,7 @@ impl Simulation {
             instructions: _,
             pointers: _,
             phases: _,
+            ranks: _,
             // Stop the simulation, but change no bit.
             limits: _,
             first_deep: _,
