@@ -45,6 +45,7 @@ pub fn run<'py>(
         instructions: None,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         pictures: PictureOptions { svg, ..PictureOptions::default() },
+        exchange: None,
         warn,
     };
     let scenario = if resume { None } else { Some(read(&source, &set)?) };

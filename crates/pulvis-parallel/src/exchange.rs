@@ -9,9 +9,19 @@ use std::time::Duration;
 /// Numbers for another rank. Indices and flags are numbers, too: a double holds every integer up to 2⁵³.
 pub type Message = Vec<f64>;
 
-/// How long a rank waits for another one before it takes it for lost. No part of a step takes that long, and nobody
-/// wants to find out the next morning.
+/// How long a rank waits in the middle of a step for another one before it takes it for lost. No part of a step takes that
+/// long, and nobody wants to find out the next morning.
 pub const PATIENCE: Duration = Duration::from_secs(50);
+
+/// What a rank waits for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Waiting {
+    /// The work of others in a step: it ends after [`PATIENCE`].
+    ForWork,
+    /// Files that another rank writes, which may take long. A rank that has ended is missed all the same, by those who
+    /// run the ranks if nobody else does.
+    ForFiles,
+}
 
 /// What went wrong between two ranks.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,16 +48,17 @@ pub trait Exchange: Debug + Send + Sync {
         outgoing: &[(usize, Message)],
         from: &[usize],
         incoming: &mut Vec<Message>,
+        waiting: Waiting,
     ) -> Result<(), ExchangeError>;
 
     /// Fills `all` with the message of every rank, this one's `own` among them, in the order of the ranks.
     ///
     /// # Errors
     /// A rank is lost.
-    fn gather(&self, own: &[f64], all: &mut Vec<Message>) -> Result<(), ExchangeError> {
+    fn gather(&self, own: &[f64], all: &mut Vec<Message>, waiting: Waiting) -> Result<(), ExchangeError> {
         let others: Vec<usize> = (0..self.ranks()).filter(|&rank| rank != self.rank()).collect();
         let outgoing: Vec<(usize, Message)> = others.iter().map(|&rank| (rank, own.to_vec())).collect();
-        self.swap(&outgoing, &others, all)?;
+        self.swap(&outgoing, &others, all, waiting)?;
         all.insert(self.rank(), own.to_vec());
         Ok(())
     }
@@ -100,6 +111,7 @@ impl Exchange for ThreadRank {
         outgoing: &[(usize, Message)],
         from: &[usize],
         incoming: &mut Vec<Message>,
+        waiting: Waiting,
     ) -> Result<(), ExchangeError> {
         for (rank, message) in outgoing {
             let sent = self.to[*rank].send(message.clone());
@@ -108,7 +120,11 @@ impl Exchange for ThreadRank {
         incoming.clear();
         for &rank in from {
             let receiver = self.from[rank].lock().map_err(|_| lost(rank, "its channel is broken"))?;
-            let received = receiver.recv_timeout(self.patience).map_err(|error| match error {
+            let received = match waiting {
+                Waiting::ForWork => receiver.recv_timeout(self.patience),
+                Waiting::ForFiles => receiver.recv().map_err(|_| RecvTimeoutError::Disconnected),
+            };
+            let received = received.map_err(|error| match error {
                 RecvTimeoutError::Timeout => lost(rank, "it does not answer"),
                 RecvTimeoutError::Disconnected => lost(rank, "it has ended"),
             })?;
@@ -144,10 +160,11 @@ mod tests {
             let (next, before) = ((rank.rank() + 1) % 3, (rank.rank() + 2) % 3);
             let mut incoming = Vec::new();
             for round in 0..3 {
-                rank.swap(&[(next, vec![own, f64::from(round)])], &[before], &mut incoming).unwrap();
+                rank.swap(&[(next, vec![own, f64::from(round)])], &[before], &mut incoming, Waiting::ForWork)
+                    .unwrap();
                 assert_eq!(incoming, [vec![before as f64, f64::from(round)]]);
             }
-            rank.gather(&[own], &mut incoming).unwrap();
+            rank.gather(&[own], &mut incoming, Waiting::ForFiles).unwrap();
             incoming
         });
         assert!(received.iter().all(|all| *all == [[0.0], [1.0], [2.0]]), "{received:?}");
@@ -161,7 +178,7 @@ mod tests {
                     std::thread::sleep(Duration::from_millis(if silent { 600 } else { 0 }));
                     return None;
                 }
-                Some(rank.gather(&[1.0], &mut Vec::new()).unwrap_err().reason)
+                Some(rank.gather(&[1.0], &mut Vec::new(), Waiting::ForWork).unwrap_err().reason)
             });
             let how =
                 if silent { "rank 1 is lost: it does not answer" } else { "rank 1 is lost: it has ended" };

@@ -96,6 +96,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         instructions: arguments.instructions,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         pictures: PictureOptions { dpi: arguments.resolution.dpi, svg: arguments.svg },
+        exchange: None,
         warn,
     };
     let style = if arguments.quiet { Style::None } else { arguments.progress };

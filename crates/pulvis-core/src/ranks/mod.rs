@@ -15,7 +15,7 @@ pub(crate) mod message;
 use std::ops::Range;
 use std::sync::Arc;
 
-use pulvis_parallel::exchange::{Exchange, ExchangeError, Message};
+use pulvis_parallel::exchange::{Exchange, ExchangeError, Message, Waiting};
 
 use self::halo::HaloPlan;
 
@@ -98,7 +98,7 @@ impl Ranks {
     /// # Errors
     /// A rank is lost.
     pub(crate) fn gather(&mut self, own: &[f64]) -> Result<&[Message], ExchangeError> {
-        self.exchange.gather(own, &mut self.incoming)?;
+        self.exchange.gather(own, &mut self.incoming, Waiting::ForWork)?;
         Ok(&self.incoming)
     }
 
@@ -111,7 +111,7 @@ impl Ranks {
         outgoing: &[(usize, Message)],
         from: &[usize],
     ) -> Result<&[Message], ExchangeError> {
-        self.exchange.swap(outgoing, from, &mut self.incoming)?;
+        self.exchange.swap(outgoing, from, &mut self.incoming, Waiting::ForWork)?;
         Ok(&self.incoming)
     }
 }

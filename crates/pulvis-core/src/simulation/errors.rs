@@ -344,6 +344,11 @@ pub enum Alarm {
 }
 
 impl Alarm {
+    /// Whether it is about a rank and not about the state.
+    pub fn is_lost_rank(&self) -> bool {
+        matches!(self, Self::RankLost { .. })
+    }
+
     /// The particles that it is about, at most two.
     pub fn particles(&self) -> Vec<ParticleId> {
         match *self {

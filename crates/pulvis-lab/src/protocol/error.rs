@@ -158,6 +158,12 @@ pub enum RunError {
         /// The step of the last checkpoint, if there is one.
         saved: Option<u64>,
     },
+    /// The ranks that share a run cannot go on together.
+    #[error("{reason}; the run has stopped on all ranks")]
+    Ranks {
+        /// What happened, and on which rank.
+        reason: String,
+    },
     /// A session is asked to go on after it has failed.
     #[error(
         "the simulation has failed and stands in the middle of a step: it can be looked at, but not go on"

@@ -1,11 +1,13 @@
 //! Runs the stages of a scenario, from the beginning or from a checkpoint.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use pulvis_core::{InstructionSet, Simulation};
 use pulvis_input::scenario::Scenario;
 use pulvis_io::checkpoint::{CheckpointError, peek_header, write_text};
+use pulvis_parallel::exchange::Exchange;
 
 use super::averages::Average;
 use super::check::stages;
@@ -14,6 +16,7 @@ use super::disk::refuse_full_disk;
 use super::error::{PrepareError, RunError};
 use super::folder::{LIST, OutputFolder, RECORD};
 use super::measure::Measure;
+use super::ranks::Leader;
 use super::setup::prepare;
 use super::stage::Ending;
 use super::under_way::Run;
@@ -35,6 +38,8 @@ pub struct RunOptions {
     pub version: String,
     /// How pictures are written.
     pub pictures: PictureOptions,
+    /// The other ranks that share the run; `None` where it has one. Results do not depend on them.
+    pub exchange: Option<Arc<dyn Exchange>>,
     /// Told what is valid and yet probably not meant, before the first step.
     pub warn: fn(&str),
 }
@@ -151,6 +156,17 @@ pub fn run(
     stop: &AtomicBool,
     watch: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<RunSummary, RunError> {
+    let result = run_as_leader(scenario, options, stop, watch);
+    Leader::new(options.exchange.as_ref()).end(&result);
+    result
+}
+
+fn run_as_leader(
+    scenario: &Scenario,
+    options: &RunOptions,
+    stop: &AtomicBool,
+    watch: Watch<'_>,
+) -> Result<RunSummary, RunError> {
     let prepared = prepare(scenario)?;
     for warning in warnings(scenario, &prepared) {
         (options.warn)(&warning);
@@ -178,6 +194,17 @@ pub fn resume(
     stop: &AtomicBool,
     watch: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<RunSummary, RunError> {
+    let result = resume_as_leader(path, options, stop, watch);
+    Leader::new(options.exchange.as_ref()).end(&result);
+    result
+}
+
+fn resume_as_leader(
+    path: &Path,
+    options: &RunOptions,
+    stop: &AtomicBool,
+    watch: Watch<'_>,
+) -> Result<RunSummary, RunError> {
     let parent = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let is_file = path.is_file();
     if is_file && matches!(peek_header(path), Err(CheckpointError::Foreign)) {
@@ -191,6 +218,8 @@ pub fn resume(
     let resolved = std::fs::read_to_string(&record).map_err(unreadable)?;
     let scenario =
         Scenario::from_str(&record.display().to_string(), &resolved).map_err(PrepareError::from)?;
+    // Others read the same files, which change from here on.
+    Leader::new(options.exchange.as_ref()).wait_for_others()?;
     let Some(found) = found else {
         (options.warn)("the run has no checkpoint: it begins again");
         let prepared = prepare(&scenario)?;
@@ -246,8 +275,13 @@ pub(super) fn set_machine(
     options: &RunOptions,
 ) -> Result<(), pulvis_core::SetupError> {
     let particles = simulation.particles().len().max(expected);
-    let threads = options.threads.unwrap_or_else(|| sensible_threads(particles));
+    let alone = options.exchange.is_none();
+    // Ranks that share a machine do not know how many they are: a thread each, unless the user knows better.
+    let threads = options.threads.unwrap_or_else(|| if alone { sensible_threads(particles) } else { 1 });
     simulation.set_threads(threads)?;
+    if let Some(exchange) = &options.exchange {
+        simulation.set_exchange(Arc::clone(exchange));
+    }
     if let Some(instructions) = options.instructions {
         simulation.set_instructions(instructions);
     }

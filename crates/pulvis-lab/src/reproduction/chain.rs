@@ -179,6 +179,7 @@ fn carry_out(
             instructions: None,
             version: workplace.version.to_owned(),
             pictures: PictureOptions::default(),
+            exchange: None,
             warn: |_| {},
         };
         let failed = |source| ReproductionError::Run { data: data.to_owned(), source: Box::new(source) };

@@ -178,6 +178,7 @@ fn carry_out(
         version: options.version.to_owned(),
         pictures: PictureOptions { dpi: options.dpi, svg: false },
         // They were told before the first run.
+        exchange: None,
         warn: |_| {},
     };
     match planned.state {

@@ -341,6 +341,7 @@ fn checkpoint_of_a_run(folder: &Path) -> (String, Vec<u8>) {
         instructions: None,
         version: "fuzz".to_owned(),
         pictures: PictureOptions::default(),
+        exchange: None,
         warn: |_| {},
     };
     protocol::run(&scenario, &options, &AtomicBool::new(false), &mut |_| {}).unwrap();

@@ -36,6 +36,7 @@ pub fn options(folder: &Path) -> RunOptions {
         instructions: None,
         version: "test".to_owned(),
         pictures: PictureOptions::default(),
+        exchange: None,
         warn: |_| {},
     }
 }

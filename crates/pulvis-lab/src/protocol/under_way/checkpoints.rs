@@ -15,6 +15,7 @@ use crate::protocol::measure::Measure;
 use crate::protocol::openings::Openings;
 use crate::protocol::pace::Due;
 use crate::protocol::programs::models_after;
+use crate::protocol::ranks::Leader;
 use crate::protocol::run::{PictureOptions, StageResult, drop_later};
 use crate::protocol::snapshots::Snapshots;
 use crate::protocol::stage::StageWatch;
@@ -77,6 +78,7 @@ impl<'a> Run<'a> {
             keeper,
             pictures: PictureOptions::default(),
             status,
+            leader: Leader::default(),
             output,
             simulation,
         })
@@ -136,6 +138,7 @@ impl<'a> Run<'a> {
             keeper: _,
             pictures: _,
             status: _,
+            leader: _,
         } = self;
         let series = writer.position()?;
         Ok(RunRecord {

@@ -23,6 +23,7 @@ use super::observers::{histogram, histogram_file};
 use super::openings::Openings;
 use super::pace::{Due, PACE, Pace};
 use super::programs::update;
+use super::ranks::Leader;
 use super::report::{self, Series};
 use super::run::{PictureOptions, Progress, RunOptions, RunSummary, StageResult, Watch, set_machine};
 use super::setup::{Prepared, StagePlan};
@@ -71,6 +72,8 @@ pub(super) struct Run<'a> {
     pictures: PictureOptions,
     /// The sign of life for other processes.
     status: StatusFile,
+    /// Orders to other ranks.
+    leader: Leader,
 }
 
 impl<'a> Run<'a> {
@@ -117,6 +120,7 @@ impl<'a> Run<'a> {
             keeper,
             pictures: PictureOptions::default(),
             status,
+            leader: Leader::default(),
             simulation,
         };
         run.frame()?;
@@ -134,6 +138,7 @@ impl<'a> Run<'a> {
         let machine = set_machine(&mut self.simulation, self.scenario.expected_particles(), options);
         machine.map_err(|source| RunError::Switch { stage, source })?;
         self.pictures = options.pictures;
+        self.leader = Leader::new(options.exchange.as_ref());
         match self.stages(stop, watch).and_then(|interrupted| self.finish(interrupted)) {
             Ok(summary) => {
                 let interrupted = summary.interrupted();
@@ -186,7 +191,7 @@ impl<'a> Run<'a> {
         };
         let mut pace = Pace::new(self.simulation.steps());
         let ending = loop {
-            self.advance(number, &rules)?;
+            self.advance(number, &rules, stop)?;
             if let Some(ending) = rules.ending(&self.simulation, &self.openings) {
                 break ending;
             }
@@ -220,11 +225,14 @@ impl<'a> Run<'a> {
         Ok(StageResult { name: stage.name.clone(), ending, time, steps })
     }
 
-    /// Steps to the next look, and all that is due then.
-    fn advance(&mut self, number: usize, rules: &StageWatch<'_>) -> Result<(), RunError> {
+    /// Steps to the next look, and all that is due then. Where another rank is asked to `stop`, so is this one.
+    fn advance(&mut self, number: usize, rules: &StageWatch<'_>, stop: &AtomicBool) -> Result<(), RunError> {
         let scenario = self.scenario;
         let stage = &scenario.stages[number];
         let steps = self.steps_to_next_look(rules);
+        if self.leader.order_steps(steps)? {
+            stop.store(true, Ordering::Relaxed);
+        }
         self.simulation.advance(steps).map_err(|source| self.stopped(number, source))?;
         let programs = (stage, &self.plans[number].programs[..]);
         let (models, present) = (&mut self.interactions, &mut self.update);
