@@ -25,6 +25,16 @@ impl Failure {
         Self { message: message.to_string(), code: 1 }
     }
 
+    /// The same, of a rank that is not the first.
+    pub fn on_rank(self, rank: usize) -> Self {
+        Self { message: format!("rank {rank}: {}", self.message), ..self }
+    }
+
+    /// The exit code, where somebody else prints the message.
+    pub fn silent(&self) -> ExitCode {
+        ExitCode::from(self.code)
+    }
+
     /// Prints the message; answers with the exit code.
     pub fn report(&self) -> ExitCode {
         let text = self.message.trim_end();

@@ -3,6 +3,7 @@
 
 mod commands;
 mod failure;
+mod ranks;
 
 use std::process::ExitCode;
 
@@ -29,8 +30,10 @@ pub(crate) fn command_line() -> clap::Command {
 }
 
 fn main() -> ExitCode {
-    match Arguments::parse().command.execute() {
+    let code = match Arguments::parse().command.execute() {
         Ok(code) => code,
         Err(failure) => failure.report(),
-    }
+    };
+    ranks::finish();
+    code
 }

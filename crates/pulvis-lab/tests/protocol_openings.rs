@@ -130,7 +130,7 @@ fn particles_in_free_flight_carry_out_the_energy_that_they_brought_and_that_of_t
 }
 
 #[test]
-fn any_number_of_threads_and_any_interruption_leave_the_same_files() {
+fn any_number_of_threads_and_ranks_and_any_interruption_leave_the_same_files() {
     let text = changed(&[("\"20 ms\"", "\"8 ms\""), ("vtk = false", "checkpoints = { stage_ends = true }")]);
     let scenario = scenario(&text);
     let [whole, threads, stopped] = [(); 3].map(|()| tempfile::tempdir().unwrap());
@@ -139,6 +139,9 @@ fn any_number_of_threads_and_any_interruption_leave_the_same_files() {
     let two = pulvis_lab::protocol::RunOptions { threads: Some(3), ..options(threads.path()) };
     run_with(&scenario, &two, &AtomicBool::new(false), &mut |_| {}).unwrap();
     assert!(files(threads.path()) == expected, "three threads have another result");
+    let ranks = tempfile::tempdir().unwrap();
+    protocol_scenarios::on_ranks(&scenario, ranks.path(), 2);
+    assert!(files(ranks.path()) == expected, "two ranks have another result");
     let stop = AtomicBool::new(true);
     let mut watch = |progress: &pulvis_lab::protocol::Progress| {
         let ended = progress.ending.is_some_and(|ending| ending != Ending::Interrupted);

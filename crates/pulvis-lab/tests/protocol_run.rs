@@ -5,6 +5,8 @@
 #[path = "protocol_run/files.rs"]
 mod files;
 mod protocol_scenarios;
+#[path = "protocol_run/ranks.rs"]
+mod ranks;
 #[path = "protocol_run/resume.rs"]
 mod resume;
 #[path = "protocol_run/session.rs"]

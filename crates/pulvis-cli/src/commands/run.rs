@@ -9,10 +9,13 @@ use std::time::Duration;
 
 use clap::Args;
 use pulvis_core::InstructionSet;
+use pulvis_input::scenario::Scenario;
 use pulvis_io::table::significant;
 use pulvis_lab::protocol::{
-    Average, PictureOptions, Progress, RunOptions, RunSummary, load_scenario, resume, run,
+    Average, Following, PictureOptions, Progress, RunError, RunOptions, RunSummary, dismiss, follow,
+    follow_nobody, load_scenario, resume, run,
 };
+use pulvis_parallel::exchange::Exchange;
 
 use super::allow::Allowed;
 use super::picture_file::Resolution;
@@ -20,6 +23,7 @@ use super::progress::{ProgressLine, Style};
 use super::set::Settings;
 use super::words::duration;
 use crate::failure::{Failure, INTERRUPTED, print};
+use crate::ranks;
 
 /// Runs the stages of a scenario and writes tables, VTK files and pictures into a fresh folder.
 #[derive(Debug, Args)]
@@ -76,29 +80,87 @@ fn instruction_set(name: &str) -> Result<InstructionSet, String> {
 }
 
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let scenario = match &arguments.file {
-        Some(file) => {
-            let mut scenario = load_scenario(file, &arguments.set.pairs).map_err(Failure::bad_input)?;
-            arguments.allowed.apply(&mut scenario);
-            Some(scenario)
+    let exchange = ranks::exchange()?;
+    let Some(exchange) = exchange else { return lead(arguments, load(arguments)?, None) };
+    let loaded = load(arguments);
+    match (loaded, exchange.rank()) {
+        (Ok(scenario), 0) => lead(arguments, scenario, Some(exchange)),
+        (Err(failure), 0) => {
+            dismiss(&exchange);
+            Err(failure)
         }
-        None => None,
-    };
+        (Ok(scenario), _) => follow_leader(arguments, scenario.as_ref(), &exchange),
+        // The first rank says the same, unless only this one cannot read the file.
+        (Err(failure), rank) if follow_nobody(&exchange) => Err(failure.on_rank(rank)),
+        (Err(failure), _) => Ok(failure.silent()),
+    }
+}
+
+/// The scenario to run; `None` where a run is resumed.
+fn load(arguments: &Arguments) -> Result<Option<Scenario>, Failure> {
+    let Some(file) = &arguments.file else { return Ok(None) };
+    let mut scenario = load_scenario(file, &arguments.set.pairs).map_err(Failure::bad_input)?;
+    arguments.allowed.apply(&mut scenario);
+    Ok(Some(scenario))
+}
+
+/// A flag that the user sets by stopping the program.
+fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     let handler = Arc::clone(&stop);
     // Also SIGTERM and SIGHUP. A second Ctrl-C while files are being completed changes nothing: they are complete in a moment.
     ctrlc::set_handler(move || handler.store(true, Ordering::Relaxed))
         .map_err(|error| Failure::while_running(format!("cannot listen for Ctrl-C: {error}")))?;
-    let options = RunOptions {
+    Ok(stop)
+}
+
+fn options(arguments: &Arguments, exchange: Option<Arc<dyn Exchange>>) -> RunOptions {
+    RunOptions {
         folder: arguments.output.clone(),
         force: arguments.force,
         threads: arguments.threads.map(usize::from),
         instructions: arguments.instructions,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         pictures: PictureOptions { dpi: arguments.resolution.dpi, svg: arguments.svg },
-        exchange: None,
+        exchange,
         warn,
+    }
+}
+
+fn failure(error: RunError) -> Failure {
+    if error.is_bad_input() { Failure::bad_input(error) } else { Failure::while_running(error) }
+}
+
+/// What a rank does that is not the first: it writes nothing, and says only what the first one does not.
+fn follow_leader(
+    arguments: &Arguments,
+    scenario: Option<&Scenario>,
+    exchange: &Arc<dyn Exchange>,
+) -> Result<ExitCode, Failure> {
+    let stop = stop_flag()?;
+    let options = options(arguments, Some(Arc::clone(exchange)));
+    let following = match (scenario, &arguments.resume) {
+        (Some(scenario), _) => Following::Scenario(scenario),
+        (None, Some(path)) => Following::Resumed(path),
+        // One of them is required.
+        (None, None) => return Ok(ExitCode::SUCCESS),
     };
+    match follow(following, &options, exchange, &stop) {
+        Ok(Ok(())) if stop.load(Ordering::Relaxed) => Ok(ExitCode::from(INTERRUPTED)),
+        Ok(Ok(())) => Ok(ExitCode::SUCCESS),
+        Ok(Err(error)) => Ok(failure(error).silent()),
+        Err(error) => Err(failure(error).on_rank(exchange.rank())),
+    }
+}
+
+/// What the only rank does, or the first of several.
+fn lead(
+    arguments: &Arguments,
+    scenario: Option<Scenario>,
+    exchange: Option<Arc<dyn Exchange>>,
+) -> Result<ExitCode, Failure> {
+    let stop = stop_flag()?;
+    let options = options(arguments, exchange);
     let style = if arguments.quiet { Style::None } else { arguments.progress };
     let mut line = ProgressLine::new(style, Duration::from_secs(arguments.progress_interval.into()));
     let mut watch = |progress: &Progress| line.show(progress);
@@ -109,9 +171,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         (None, None) => return Ok(ExitCode::SUCCESS),
     };
     line.close();
-    let summary = result.map_err(|error| {
-        if error.is_bad_input() { Failure::bad_input(error) } else { Failure::while_running(error) }
-    })?;
+    let summary = result.map_err(failure)?;
     print(&describe(&summary))?;
     Ok(if summary.interrupted() { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
 }

@@ -11,7 +11,7 @@ use pulvis_lab::protocol::{Ending, RunSummary, load_scenario, resume};
 use super::protocol_scenarios::{Series, options, run, run_with, scenario};
 use super::{coarse, observed};
 
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
     let files = entries.filter(|path| ![".pulvis-lock", "status.json"].contains(&&*name(path)));

@@ -4,10 +4,12 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use pulvis_input::scenario::Scenario;
 use pulvis_lab::protocol::{self, PictureOptions, Progress, RunError, RunOptions, RunSummary};
+use pulvis_parallel::exchange::{Exchange, ThreadRank};
 
 /// The small tablet with some texts replaced; each of them must be there.
 pub fn tablet(changes: &[(&str, &str)]) -> Scenario {
@@ -52,6 +54,24 @@ pub fn run_with(
     watch: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<RunSummary, RunError> {
     protocol::run(scenario, options, stop, watch)
+}
+
+/// Runs a scenario on so many ranks, which are threads.
+pub fn on_ranks(scenario: &Scenario, folder: &Path, ranks: usize) -> RunSummary {
+    let mut team = ThreadRank::team(ranks).into_iter();
+    let first: Arc<dyn Exchange> = Arc::new(team.next().unwrap());
+    std::thread::scope(|scope| {
+        for rank in team {
+            scope.spawn(|| {
+                let rank: Arc<dyn Exchange> = Arc::new(rank);
+                let options = RunOptions { exchange: Some(Arc::clone(&rank)), ..options(folder) };
+                let following = protocol::Following::Scenario(scenario);
+                protocol::follow(following, &options, &rank, &AtomicBool::new(false)).unwrap().unwrap();
+            });
+        }
+        let options = RunOptions { exchange: Some(first), ..options(folder) };
+        run_with(scenario, &options, &AtomicBool::new(false), &mut |_| {}).unwrap()
+    })
 }
 
 /// A time series as a run has written it.
