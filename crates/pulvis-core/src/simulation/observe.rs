@@ -92,6 +92,7 @@ impl Simulation {
 
     /// Hands every contact that acts to `see`, chunk by chunk, in each chunk pairs first, then walls.
     pub fn for_each_contact(&self, see: &mut dyn FnMut(&ContactView)) {
+        debug_assert!(self.knows_everything(), "contacts of other ranks are not known");
         let walls = self.walls_at_rest();
         for chunk in self.contacts.chunks() {
             self.view_chunk(chunk, &walls, &mut |contact, _| see(contact));
@@ -113,6 +114,7 @@ impl Simulation {
         &self,
         see: impl Fn(&mut T, &ContactView<'_>, &Binding) + Sync,
     ) -> Vec<T> {
+        debug_assert!(self.knows_everything(), "contacts of other ranks are not known");
         let (walls, chunks) = (self.walls_at_rest(), self.contacts.chunks());
         let mut parts: Vec<T> = Vec::new();
         parts.resize_with(chunks.len(), T::default);
@@ -129,6 +131,7 @@ impl Simulation {
         &self,
         see: impl Fn(&mut T, &ContactView<'_>, [usize; 2]) + Sync,
     ) -> Vec<T> {
+        debug_assert!(self.knows_everything(), "contacts of other ranks are not known");
         let (walls, chunks) = (self.walls_at_rest(), self.contacts.chunks());
         let mut parts: Vec<T> = Vec::new();
         parts.resize_with(chunks.len(), T::default);

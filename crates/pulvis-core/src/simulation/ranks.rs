@@ -52,7 +52,7 @@ impl Simulation {
 
     /// Begins an advance: each rank keeps its own part.
     pub(super) fn share_out(&mut self) -> Result<(), StepError> {
-        let Some(ranks) = &mut self.ranks else { return Ok(()) };
+        let Some(ranks) = self.ranks.as_mut().filter(|ranks| !ranks.shares) else { return Ok(()) };
         ranks.share_out(self.contacts.chunks().len());
         (ranks.shares, ranks.movement_is_known) = (true, true);
         let own = ranks.chunks_of(ranks.rank());
@@ -61,17 +61,27 @@ impl Simulation {
         self.agreed(linked)
     }
 
-    /// Ends an advance: every rank knows the whole state, also where the advance has failed, so that all say the same of it.
-    pub(super) fn bring_together(&mut self, taken: Result<(), StepError>) -> Result<(), StepError> {
-        if self.ranks.is_none() {
-            return taken;
-        }
-        if let Err(StepError { alarm: Alarm::RankLost { .. }, .. }) = taken {
-            return taken;
-        }
+    /// After [`advance_apart`](Self::advance_apart): every rank gets to know how all particles are. To be called on all ranks.
+    ///
+    /// # Errors
+    /// A rank is lost.
+    pub fn tell_particles(&mut self) -> Result<(), StepError> {
+        let gathered = self.gather_rows_at_end();
+        self.agreed(gathered)
+    }
+
+    /// After [`advance_apart`](Self::advance_apart): every rank gets to know the whole state. To be called on all ranks.
+    ///
+    /// # Errors
+    /// A rank is lost.
+    pub fn tell_everything(&mut self) -> Result<(), StepError> {
         let gathered = self.gather_state();
-        self.agreed(gathered)?;
-        taken
+        self.agreed(gathered)
+    }
+
+    /// Whether this rank knows the whole state.
+    pub fn knows_everything(&self) -> bool {
+        !self.is_shared()
     }
 
     /// Whether anything is so on any rank.
@@ -255,6 +265,9 @@ impl Simulation {
 
     /// Tells all ranks everything: the state is whole on each.
     pub(super) fn gather_state(&mut self) -> Agreed {
+        if !self.is_shared() {
+            return Ok(());
+        }
         self.tell_movement()?;
         self.gather_rows(Told::State)?;
         let Some(ranks) = self.ranks.as_mut().filter(|ranks| ranks.shares) else { return Ok(()) };

@@ -46,15 +46,20 @@ impl Due {
 
     /// Whether it is time; counts one up if so.
     pub(super) fn now(&mut self, simulation: &Simulation) -> bool {
-        let due = match self.interval {
+        let due = self.is_now(simulation);
+        self.count += u64::from(due);
+        due
+    }
+
+    /// Whether it is time.
+    pub(super) fn is_now(&self, simulation: &Simulation) -> bool {
+        match self.interval {
             Interval::Steps(steps) => simulation.steps() >= (self.count + 1) * steps,
             Interval::Time(time) => {
                 // Half a step of tolerance: sums of time steps are not exact.
                 simulation.time() + 0.5 * simulation.time_step() >= (self.count + 1) as f64 * time
             }
-        };
-        self.count += u64::from(due);
-        due
+        }
     }
 }
 
@@ -73,9 +78,9 @@ impl Pace {
         Self { began: Instant::now(), told: Instant::now(), told_steps: steps }
     }
 
-    /// Five times a second, looked at every so many steps.
-    pub(super) fn is_due(&self, steps: u64) -> bool {
-        steps.is_multiple_of(PACE) && self.told.elapsed().as_secs_f64() > 0.2
+    /// After so many seconds, looked at every so many steps.
+    pub(super) fn is_due(&self, steps: u64, patience: f64) -> bool {
+        steps.is_multiple_of(PACE) && self.told.elapsed().as_secs_f64() > patience
     }
 
     /// Steps per second since it was last told.

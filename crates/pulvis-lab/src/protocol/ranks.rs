@@ -10,23 +10,28 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use pulvis_core::{Interactions, Simulation};
-use pulvis_input::scenario::Scenario;
+use pulvis_input::scenario::{Scenario, Stage};
 use pulvis_parallel::exchange::{Exchange, ExchangeError, Message, Waiting};
 
 use super::checkpoint::find;
 use super::error::{PrepareError, RunError};
 use super::folder::RECORD;
 use super::openings::Openings;
+use super::pace::PACE;
 use super::programs::{models_after, update};
 use super::run::{RunOptions, RunSummary, set_machine};
 use super::setup::{Prepared, StagePlan, prepare};
-use super::stage::StageWatch;
+use super::stage::{Look, StageWatch};
 use super::start::{Resumed, resumed};
 use super::switch::switch;
 
-/// What the leader orders, as a number: so many steps, nothing but an answer, or the end.
+/// What the leader orders, as a number: so many steps, nothing but an answer, the end, to tell all of particles or of
+/// everything, or to go on to the next stage.
 const WAIT: f64 = 0.0;
 const END: f64 = -1.0;
+const TELL_PARTICLES: f64 = -2.0;
+const TELL_EVERYTHING: f64 = -3.0;
+const NEXT_STAGE: f64 = -4.0;
 
 /// What a follower answers.
 const GOES_ON: f64 = 0.0;
@@ -56,6 +61,41 @@ impl Leader {
     /// A rank is lost, or could not do its part.
     pub(super) fn order_steps(&self, steps: u64) -> Result<bool, RunError> {
         self.order(steps as f64)
+    }
+
+    /// The leader looks at what it may not know.
+    ///
+    /// # Errors
+    /// A rank is lost.
+    pub(super) fn look(&self, simulation: &mut Simulation, look: Look) -> Result<(), RunError> {
+        if simulation.knows_everything() || look == Look::Totals {
+            return Ok(());
+        }
+        self.order(if look == Look::Particles { TELL_PARTICLES } else { TELL_EVERYTHING })?;
+        Ok(tell(simulation, look)?)
+    }
+
+    /// The stage has ended for all ranks.
+    ///
+    /// # Errors
+    /// A rank is lost.
+    pub(super) fn end_stage(&self, simulation: &mut Simulation) -> Result<(), RunError> {
+        self.order(NEXT_STAGE)?;
+        Ok(tell(simulation, Look::Everything)?)
+    }
+
+    /// How long it takes at least from one sign of life to the next: with other ranks, it costs as much as a step.
+    pub(super) fn patience(&self) -> f64 {
+        if self.exchange.is_some() { 2.0 } else { 0.2 }
+    }
+
+    /// Steps after which the clock is looked at: about a second of them where that costs something.
+    pub(super) fn pace(&self, steps_per_second: f64) -> u64 {
+        if self.exchange.is_none() {
+            return PACE;
+        }
+        // Whatever is no number of steps comes out as the shortest pace.
+        (steps_per_second as u64 / PACE).clamp(1, 4096) * PACE
     }
 
     /// Waits until all others are ready to begin.
@@ -93,6 +133,27 @@ impl Leader {
             None => Ok(answers[1..].iter().any(|message| answer(message) == IS_STOPPED)),
         }
     }
+}
+
+/// What all ranks do together after steps that each has taken apart.
+pub(super) fn tell(simulation: &mut Simulation, look: Look) -> Result<(), ExchangeError> {
+    let told = match look {
+        Look::Totals => Ok(()),
+        Look::Particles => simulation.tell_particles(),
+        Look::Everything => simulation.tell_everything(),
+    };
+    told.map_err(|error| ExchangeError { reason: error.to_string() })
+}
+
+/// What everybody looks at after the steps up to a look: what may change the state must know it.
+pub(super) fn look_after_steps(
+    rules: &StageWatch<'_>,
+    scenario: &Scenario,
+    stage: &Stage,
+    simulation: &Simulation,
+) -> Look {
+    let may_change = stage.programs.is_some() || !scenario.inlets.is_empty() || !scenario.outlets.is_empty();
+    if may_change { Look::Everything } else { rules.look(simulation) }
 }
 
 /// Sends the other ranks home before there is a run.
@@ -257,28 +318,40 @@ impl<'a> Follower<'a> {
                 StageWatch::new(scenario, stage, &self.simulation)
             }
         };
+        let mut has_ended = false;
         loop {
             let order = self.next_order()?;
-            if order == END {
-                return Ok(false);
+            match order {
+                END => return Ok(false),
+                WAIT => continue,
+                TELL_PARTICLES => tell(&mut self.simulation, Look::Particles)?,
+                TELL_EVERYTHING => tell(&mut self.simulation, Look::Everything)?,
+                NEXT_STAGE => {
+                    tell(&mut self.simulation, Look::Everything)?;
+                    return Ok(true);
+                }
+                _ => {}
+            }
+            if order < 0.0 {
+                continue;
+            }
+            if has_ended {
+                let reason = format!("the stage `{}` has ended on one rank and not on the first", stage.name);
+                return Err(RunError::Ranks { reason });
             }
             let name = || stage.name.clone();
-            let advanced = self.simulation.advance(order.max(0.0) as u64);
-            advanced.map_err(|source| RunError::Stopped {
+            self.simulation.advance_apart(order as u64).map_err(|source| RunError::Stopped {
                 stage: name(),
                 source: Box::new(source),
                 cause: "the first rank tells it".to_owned(),
             })?;
-            if order == WAIT {
-                continue;
-            }
+            let look = look_after_steps(&rules, scenario, stage, &self.simulation);
+            tell(&mut self.simulation, look)?;
             let programs = (stage, &self.plans[number].programs[..]);
             let (models, present) = (&mut self.interactions, &mut self.update);
             update(&mut self.simulation, models, present, programs, rules.start_time())?;
             self.openings.act(&mut self.simulation).map_err(|source| RunError::inlet(&stage.name, source))?;
-            if rules.ending(&self.simulation, &self.openings).is_some() {
-                return Ok(true);
-            }
+            has_ended = rules.ending(&self.simulation, &self.openings).is_some();
         }
     }
 }

@@ -69,6 +69,17 @@ impl Ending {
     }
 }
 
+/// What of a state somebody looks at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Look {
+    /// What all forces come to.
+    Totals,
+    /// Particles, too.
+    Particles,
+    /// Contacts, too; or the state is about to change.
+    Everything,
+}
+
 /// Watches over a stage while it runs.
 pub(super) struct StageWatch<'a> {
     scenario: &'a Scenario,
@@ -165,6 +176,13 @@ impl<'a> StageWatch<'a> {
         });
         let instants = end.into_iter().chain(update);
         instants.fold(look, |look, instant| look.min(whole_steps(self.start_time + instant, simulation)))
+    }
+
+    /// What [`ending`](Self::ending) looks at now that one of several ranks does not know by itself.
+    pub(super) fn look(&self, simulation: &Simulation) -> Look {
+        let of_particles = self.rules.stress.is_some() || self.rules.kinetic_to_elastic.is_some();
+        let looks = (simulation.steps() - self.start_step).is_multiple_of(LOOK_EVERY);
+        if of_particles && looks { Look::Particles } else { Look::Totals }
     }
 
     /// Whether the stage ends now.

@@ -11,6 +11,7 @@ use crate::walls::{Wall, WallState};
 impl Simulation {
     /// Everything that decides the next bit. The simulation itself does not change.
     pub fn export_state(&self) -> State {
+        debug_assert!(self.knows_everything(), "contacts of other ranks are not known");
         // A new field must be listed here: decide whether it affects the next bit.
         let Self {
             particles,

@@ -18,6 +18,9 @@ const BY_SPEED: f64 = 0.1;
 
 /// What has led to an alarm, as far as the state tells. `since` is the step from which on deep contacts were looked for.
 pub(in crate::protocol) fn likely_cause(simulation: &Simulation, alarm: &Alarm, since: u64) -> String {
+    if alarm.is_lost_rank() {
+        return "another process was killed, or its machine or the network went down".to_owned();
+    }
     if let Some(deep) = simulation.first_deep_contact() {
         return of_deep_contact(simulation, deep, since);
     }

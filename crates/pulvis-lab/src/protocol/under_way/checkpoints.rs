@@ -18,7 +18,7 @@ use crate::protocol::programs::models_after;
 use crate::protocol::ranks::Leader;
 use crate::protocol::run::{PictureOptions, StageResult, drop_later};
 use crate::protocol::snapshots::Snapshots;
-use crate::protocol::stage::StageWatch;
+use crate::protocol::stage::{Look, StageWatch};
 use crate::protocol::start::{Resumed, resumed};
 use crate::protocol::status::{STATUS, StatusFile};
 
@@ -79,6 +79,7 @@ impl<'a> Run<'a> {
             pictures: PictureOptions::default(),
             status,
             leader: Leader::default(),
+            steps_per_second: 0.0,
             output,
             simulation,
         })
@@ -106,8 +107,10 @@ impl<'a> Run<'a> {
 
     /// Takes the present state as a checkpoint; without rules, between two stages.
     pub(super) fn hold(&mut self, rules: Option<&StageWatch<'_>>) -> Result<(), RunError> {
+        let began = Instant::now();
+        self.look(Look::Everything)?;
         let record = self.record(rules)?;
-        self.take(record);
+        self.take(record, began);
         Ok(())
     }
 
@@ -139,6 +142,7 @@ impl<'a> Run<'a> {
             pictures: _,
             status: _,
             leader: _,
+            steps_per_second: _,
         } = self;
         let series = writer.position()?;
         Ok(RunRecord {
@@ -174,13 +178,12 @@ impl<'a> Run<'a> {
             return Ok(());
         }
         let record = RunRecord { complete: true, ..self.record(None)? };
-        self.take(record);
+        self.take(record, Instant::now());
         Ok(self.keeper.complete()?)
     }
 
-    /// Takes the present state as a checkpoint.
-    fn take(&mut self, record: RunRecord) {
-        let began = Instant::now();
+    /// Takes the present state as a checkpoint, to which somebody has begun at a time.
+    fn take(&mut self, record: RunRecord, began: Instant) {
         let (resolved, ancestors) = (self.resolved.clone(), self.ancestors.clone());
         let checkpoint = Checkpoint::new(resolved, ancestors, record, self.simulation.export_state());
         self.keeper.hold(checkpoint, began.elapsed());

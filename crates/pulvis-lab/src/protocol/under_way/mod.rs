@@ -21,14 +21,14 @@ use super::kept_rows::KeptRows;
 use super::measure::Measure;
 use super::observers::{histogram, histogram_file};
 use super::openings::Openings;
-use super::pace::{Due, PACE, Pace};
+use super::pace::{Due, Pace};
 use super::programs::update;
-use super::ranks::Leader;
+use super::ranks::{Leader, look_after_steps, tell};
 use super::report::{self, Series};
 use super::run::{PictureOptions, Progress, RunOptions, RunSummary, StageResult, Watch, set_machine};
 use super::setup::{Prepared, StagePlan};
 use super::snapshots::Snapshots;
-use super::stage::{Ending, StageWatch};
+use super::stage::{Ending, Look, StageWatch};
 use super::status::{RunPhase, STATUS, StatusFile};
 use super::switch::switch;
 
@@ -74,6 +74,8 @@ pub(super) struct Run<'a> {
     status: StatusFile,
     /// Orders to other ranks.
     leader: Leader,
+    /// Of the last steps.
+    steps_per_second: f64,
 }
 
 impl<'a> Run<'a> {
@@ -121,6 +123,7 @@ impl<'a> Run<'a> {
             pictures: PictureOptions::default(),
             status,
             leader: Leader::default(),
+            steps_per_second: 0.0,
             simulation,
         };
         run.frame()?;
@@ -150,7 +153,10 @@ impl<'a> Run<'a> {
                 if let RunError::Step { saved, .. } | RunError::Inlet { saved, .. } = &mut error {
                     *saved = step;
                 }
-                self.salvage(&error);
+                // Where a rank is lost, so is its part of the state.
+                if self.simulation.knows_everything() {
+                    self.salvage(&error);
+                }
                 self.status.end(RunPhase::Failed, Some(error.to_string()));
                 Err(error)
             }
@@ -199,17 +205,22 @@ impl<'a> Run<'a> {
             let asked = self.checkpoints_due.as_mut().is_some_and(|due| due.now(simulation));
             // All that belongs to this step has been written and decided: what follows is the next step.
             if stop.load(Ordering::Relaxed) {
+                self.look(Look::Everything)?;
                 self.last_checkpoint(&rules)?;
                 break Ending::Interrupted;
             }
             self.checkpoint(&rules, asked)?;
-            if pace.is_due(self.simulation.steps()) {
+            if pace.is_due(self.simulation.steps(), self.leader.patience()) {
+                self.look(Look::Particles)?;
                 let fraction = rules.progress(&self.simulation);
                 let progress = self.progress(number, &mut pace, fraction, None);
                 self.status.tell(&progress);
                 watch(&progress);
             }
         };
+        if ending != Ending::Interrupted {
+            self.leader.end_stage(&mut self.simulation)?;
+        }
         self.row(number, &rules)?;
         self.frame()?;
         if ending != Ending::Interrupted {
@@ -233,7 +244,11 @@ impl<'a> Run<'a> {
         if self.leader.order_steps(steps)? {
             stop.store(true, Ordering::Relaxed);
         }
-        self.simulation.advance(steps).map_err(|source| self.stopped(number, source))?;
+        let began = Instant::now();
+        self.simulation.advance_apart(steps).map_err(|source| self.stopped(number, source))?;
+        self.steps_per_second = steps as f64 / began.elapsed().as_secs_f64();
+        let look = look_after_steps(rules, scenario, stage, &self.simulation);
+        tell(&mut self.simulation, look)?;
         let programs = (stage, &self.plans[number].programs[..]);
         let (models, present) = (&mut self.interactions, &mut self.update);
         update(&mut self.simulation, models, present, programs, rules.start_time())?;
@@ -245,13 +260,17 @@ impl<'a> Run<'a> {
         if self.rows_due.now(&self.simulation) {
             self.row(number, rules)?;
         }
+        if self.snapshots.due().any(|due| due.is_now(&self.simulation)) {
+            self.look(Look::Everything)?;
+        }
         self.snapshots.write_due(scenario, &self.simulation, &mut self.output)
     }
 
     /// Steps that can be done in one go before anything has to be looked at: the engine is faster so.
     fn steps_to_next_look(&self, rules: &StageWatch<'_>) -> u64 {
         let simulation = &self.simulation;
-        let pace = PACE - simulation.steps() % PACE;
+        let every = self.leader.pace(self.steps_per_second);
+        let pace = every - simulation.steps() % every;
         let regular = [Some(&self.rows_due), self.checkpoints_due.as_ref()];
         let regular =
             regular.into_iter().flatten().chain(self.snapshots.due()).map(|due| due.steps_left(simulation));
@@ -267,7 +286,13 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Gets to know of other ranks what is looked at.
+    fn look(&mut self, look: Look) -> Result<(), RunError> {
+        self.leader.look(&mut self.simulation, look)
+    }
+
     fn row(&mut self, stage: usize, rules: &StageWatch<'_>) -> Result<(), RunError> {
+        self.look(Look::Everything)?;
         let (scenario, simulation, lengths) = (self.scenario, &self.simulation, rules.start_lengths());
         let row = self.measure.row(scenario, simulation, &self.openings, stage + 1, lengths);
         self.writer.row(&row)?;
