@@ -89,8 +89,7 @@ impl Simulation {
 
     /// Adds to the force that the next step begins with.
     fn push(&mut self, row: usize, force: Vector3) {
-        let sum = &mut self.particles.forces_and_torques[row].force.vector;
-        *sum = *sum + force;
+        self.particles.forces_and_torques[row].force.vector += force;
     }
 
     /// Books what applied forces have done since the last time.

@@ -135,20 +135,20 @@ impl Loading {
     #[inline(always)]
     pub(super) fn elastic_overlap<R: Real>(&self, loaded: R) -> R {
         let indices = self.starts.indices(loaded);
-        let start = column(&self.pieces, &indices, |piece| piece.start);
-        let elastic = column(&self.pieces, &indices, |piece| piece.elastic);
-        elastic + column(&self.pieces, &indices, |piece| piece.elastic_share) * (loaded - start)
+        let start: R = column(&self.pieces, &indices, |piece| piece.start);
+        let elastic: R = column(&self.pieces, &indices, |piece| piece.elastic);
+        elastic + column::<R, _>(&self.pieces, &indices, |piece| piece.elastic_share) * (loaded - start)
     }
 
     /// What contacts have lost that were loaded to here, ∫L dδ_p [J].
     #[inline(always)]
     pub(super) fn plastic_work<R: Real>(&self, loaded: R) -> R {
         let indices = self.starts.indices(loaded);
-        let beyond = loaded - column(&self.pieces, &indices, |piece| piece.start);
-        let plastic_share = R::one() - column(&self.pieces, &indices, |piece| piece.elastic_share);
-        let force = column(&self.pieces, &indices, |piece| piece.force);
-        let slope = column(&self.pieces, &indices, |piece| piece.slope);
-        let work = column(&self.pieces, &indices, |piece| piece.work);
+        let beyond = loaded - column::<R, _>(&self.pieces, &indices, |piece| piece.start);
+        let plastic_share = R::one() - column::<R, _>(&self.pieces, &indices, |piece| piece.elastic_share);
+        let force: R = column(&self.pieces, &indices, |piece| piece.force);
+        let slope: R = column(&self.pieces, &indices, |piece| piece.slope);
+        let work: R = column(&self.pieces, &indices, |piece| piece.work);
         work + plastic_share * beyond * (force + R::splat(0.5) * slope * beyond)
     }
 }

@@ -199,7 +199,7 @@ fn loading_pieces(load: &Curve<'_>, unload: &Curve<'_>) -> Result<Vec<LoadingPie
     for force in forces {
         let ((start, slope), (elastic, unloading_slope)) = (load.at(force), unload.at(force));
         let share = slope / unloading_slope;
-        if !(share <= 1.0 + ROUND_OFF) {
+        if share > 1.0 + ROUND_OFF || share.is_nan() {
             return Err(InvalidParameter::Inconsistent {
                 name: "unloading_overlap",
                 found: format!(
