@@ -133,6 +133,7 @@ impl Simulation {
         if let Some(ranks) = &mut self.ranks {
             work.lap(&mut ranks.seconds);
         }
+        self.book_applied_work();
     }
 
     fn step_of_rows(&self, time_step: f64) -> Step {
@@ -307,6 +308,7 @@ impl Simulation {
         self.tell_totals(!onwards)?;
         self.on_particles.fill(WallForce::default());
         self.contacts.add_wall_forces(&mut self.on_particles);
+        self.book_applied_work();
         Ok(self.outcomes.iter().map(|outcome| outcome.kicked.power).sum())
     }
 
