@@ -142,6 +142,7 @@ impl Simulation {
             None => self.list_candidates(&grid, &order),
         }
         self.former_rows = order;
+        self.find_rows_of_groups();
     }
 
     /// Lists the neighbour pairs of particles in cell order. `former_rows` are their rows at the last rebuild.

@@ -7,6 +7,7 @@ use pulvis_input::scenario::{ClusterRule, Scenario, WallShape};
 
 use super::cell;
 use super::clusters::{self, Clusters, clusters};
+use super::groups;
 use super::observers;
 use super::openings::{self, Openings};
 use super::stage::{length, wall_force, wall_stress};
@@ -69,6 +70,7 @@ pub fn column_names(scenario: &Scenario) -> Vec<String> {
         };
         columns.extend(names.iter().map(|name| format!("{name}_{}", wall.name)));
     }
+    columns.extend(groups::columns(scenario));
     if scenario.output.dimensionless.is_some() {
         columns.extend(AXES.iter().flat_map(|axis| [format!("D_{axis}"), format!("F_{axis}")]));
     }
@@ -193,6 +195,7 @@ impl Measure {
                 }
             }
         }
+        row.extend(groups::values(scenario, simulation));
         if let Some(scaled) = &self.scaled {
             for (axis, (now, reference)) in lengths.iter().zip(scaled.reference).enumerate() {
                 let displacement = now.zip(reference);

@@ -112,7 +112,8 @@ impl Session {
         let number = self.results.len();
         if self.watch.is_none() {
             let (plan, stage) = (&self.plans[number], &self.scenario.stages[number]);
-            switch(&mut self.simulation, &mut self.interactions, plan, stage, self.walls_arrive)?;
+            let (models, scenario) = (&mut self.interactions, &self.scenario);
+            switch(&mut self.simulation, models, scenario, (plan, stage), self.walls_arrive)?;
             self.walls_arrive = true;
             self.update = 0;
             self.openings.enter_stage(&stage.name, &self.simulation);
@@ -134,7 +135,7 @@ impl Session {
             update(&mut self.simulation, models, present, programs, rules.start_time())?;
             let acted = self.openings.act(&mut self.simulation);
             acted.map_err(|source| RunError::inlet(&stage.name, source))?;
-            let ending = rules.ending(&self.simulation, &self.openings);
+            let ending = rules.ending(&self.simulation, &self.openings, &self.measure, number);
             if ending.is_some() || left == 0 {
                 break ending;
             }

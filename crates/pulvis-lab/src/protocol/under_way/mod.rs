@@ -187,7 +187,7 @@ impl<'a> Run<'a> {
         let mut pace = Pace::new(self.simulation.steps());
         let ending = loop {
             self.advance(number, &rules)?;
-            if let Some(ending) = rules.ending(&self.simulation, &self.openings) {
+            if let Some(ending) = rules.ending(&self.simulation, &self.openings, &self.measure, number) {
                 break ending;
             }
             let simulation = &self.simulation;
@@ -253,7 +253,8 @@ impl<'a> Run<'a> {
 
     fn switch_to(&mut self, number: usize) -> Result<(), RunError> {
         let (plan, stage) = (&self.plans[number], &self.scenario.stages[number]);
-        switch(&mut self.simulation, &mut self.interactions, plan, stage, self.walls_arrive)?;
+        let scenario = self.scenario;
+        switch(&mut self.simulation, &mut self.interactions, scenario, (plan, stage), self.walls_arrive)?;
         self.walls_arrive = true;
         self.update = 0;
         Ok(())
