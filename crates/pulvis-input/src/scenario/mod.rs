@@ -98,7 +98,7 @@ pub use pulvis_boundary::{
     Background, CellControl, CellMotion, Cone, Cuboid, Cylinder, CylinderSide, Disk, Domain, GroupMotion,
     Mesh, Plane, PlaneWithHole, Region, TemperatureProgram, Tube, UpperTriangular, WallMotion, WallShape,
 };
-pub use pulvis_packing::{Amount, GasVelocities, Growth, Lattice, RadiusDistribution};
+pub use pulvis_packing::{Amount, GasVelocities, Growth, Lattice, RadiusDistribution, Structure};
 pub use stages::Stage;
 pub use start::StartFrom;
 pub use time::TimeStep;

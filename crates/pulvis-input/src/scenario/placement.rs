@@ -55,7 +55,10 @@ fn points(group: &ParticleGroup) -> Vec<Point> {
             corners("lattice", &lattice.extent())
         }
         Arrangement::Lattice(lattice) => {
-            let sites = outermost_sites(lattice.counts, group.count).into_iter();
+            let of_cell = lattice.sites_per_cell();
+            let cells = outermost_sites(lattice.counts, group.count.div_ceil(of_cell)).into_iter();
+            let sites = cells.flat_map(|cell| of_cell * cell..of_cell * (cell + 1));
+            let sites = sites.filter(|number| *number < group.count);
             sites.map(|number| centre(number, lattice.site(number))).collect()
         }
         Arrangement::File { grains, .. } => {

@@ -46,6 +46,7 @@ impl Scenario {
                 writer.key("counts", list(lattice.counts.map(|count| count.to_string())));
                 writer.key("spacing", quantity(lattice.spacing, Dimension::LENGTH));
                 writer.key("jitter", number(lattice.jitter));
+                writer.key("structure", text(lattice.structure.name()));
             }
             Arrangement::Random(block) => {
                 writer.key("kind", text("random"));
