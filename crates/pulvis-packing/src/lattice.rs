@@ -158,7 +158,8 @@ mod tests {
                 let touching = sites.iter().filter(|other| (distance(other) / nearest - 1.0).abs() < 1e-12);
                 assert_eq!(touching.count(), neighbours, "{name}");
             }
-            let solid = sites.len() as f64 * PI / 6.0 * nearest.powi(3) / edge.powi(3);
+            let share = nearest / edge;
+            let solid = sites.len() as f64 * PI / 6.0 * share * share * share;
             assert!((solid / fraction - 1.0).abs() < 1e-15, "{name}: {solid}");
         }
     }

@@ -5,6 +5,7 @@
 //! comes out of them.
 
 mod aggregate;
+mod dense;
 mod gas;
 mod gaussian;
 mod inlet;
@@ -14,6 +15,7 @@ mod radius;
 mod random;
 
 pub use aggregate::{Growth, radius_of_gyration};
+pub use dense::{Jammed, dense_positions};
 pub use gas::GasVelocities;
 pub use gaussian::gaussian_vector;
 pub use inlet::{Amount, Inlet, InletPlan, InletState, InvalidInlet, NewSphere, Room, random_point};

@@ -24,6 +24,8 @@ pub enum Arrangement {
     Lattice(Lattice),
     /// At random, whole and without overlap, in this block.
     Random(Cuboid),
+    /// At random in this block, where they have grown until they had their size.
+    Dense(Cuboid),
     /// Touching each other in an aggregate that has grown at random.
     Aggregate {
         /// Its centre of mass [m].
@@ -68,9 +70,10 @@ pub(super) fn read_arrangement(
     materials: &[Material],
     folder: &Path,
 ) -> Result<Arrangement, Reported> {
-    let read = match table.selector("kind", &["lattice", "random", "aggregate", "file", "list"])? {
+    let read = match table.selector("kind", &["lattice", "random", "dense", "aggregate", "file", "list"])? {
         "lattice" => read_lattice(&mut table).map(Arrangement::Lattice),
         "random" => read_extent(&mut table).map(Arrangement::Random),
+        "dense" => read_extent(&mut table).map(Arrangement::Dense),
         "aggregate" => {
             let centre = table.required("centre", Vector::of(Dimension::LENGTH));
             let growth = table.required("growth", Choice(&Growth::ALL));

@@ -50,7 +50,7 @@ fn points(group: &ParticleGroup) -> Vec<Point> {
     };
     let centre = |number: usize, at: Vector3| Point { what: format!("particle {number},"), at, slack: 0.0 };
     match &group.arrangement {
-        Arrangement::Random(block) => corners("block", block),
+        Arrangement::Random(block) | Arrangement::Dense(block) => corners("block", block),
         Arrangement::Lattice(lattice) if group.count == lattice.site_count() => {
             corners("lattice", &lattice.extent())
         }

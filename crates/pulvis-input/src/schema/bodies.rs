@@ -68,6 +68,7 @@ fn arrangement(page: Page<'_>) -> Value {
         [
             ("lattice", lattice, &["lower", "counts", "spacing"][..]),
             ("random", vec![("lower", vector()), ("upper", vector())], &["lower", "upper"]),
+            ("dense", vec![("lower", vector()), ("upper", vector())], &["lower", "upper"]),
             (
                 "aggregate",
                 vec![("centre", vector()), ("growth", choice(["particle-cluster", "cluster-cluster"]))],

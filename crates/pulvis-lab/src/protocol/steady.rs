@@ -95,6 +95,8 @@ pub(super) fn check_steady(scenario: &Scenario, plans: &[StagePlan]) -> Result<(
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::disallowed_methods)] // of expected values
+
     use super::*;
 
     #[test]

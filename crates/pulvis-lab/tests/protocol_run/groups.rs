@@ -200,9 +200,10 @@ fn a_falling_grain_is_steady_when_it_has_its_terminal_speed() {
     let folder = tempdir().unwrap();
     let summary = run(&scenario(FALLING), folder.path());
     assert_eq!(summary.stages[0].ending, Ending::Steady);
-    let mass = 4.0 / 3.0 * std::f64::consts::PI * 2500.0 * 0.5e-3_f64.powi(3);
+    let mass = 4.0 / 3.0 * std::f64::consts::PI * 2500.0 * (0.5e-3 * 0.5e-3 * 0.5e-3);
     let relaxation = mass / 1e-4;
-    let terminal = mass * (9.81 * relaxation).powi(2);
+    let speed = 9.81 * relaxation;
+    let terminal = mass * speed * speed;
     let kinetic = *Series::read(folder.path()).column("kinetic").last().unwrap();
     // 1 − K/K∞ = 2 e^(−t/τ) in the end. Four blocks of 20 ms before, it was e^(80 ms/τ) times that: with τ = 13 ms, all of the
     // drift over the window, of which the line sees less than all. It is below 1e-3, and what is left is 1/400 of it.

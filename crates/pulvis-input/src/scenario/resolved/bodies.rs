@@ -52,6 +52,10 @@ impl Scenario {
                 writer.key("kind", text("random"));
                 write_extent(writer, block);
             }
+            Arrangement::Dense(block) => {
+                writer.key("kind", text("dense"));
+                write_extent(writer, block);
+            }
             Arrangement::Aggregate { centre, growth } => {
                 writer.key("kind", text("aggregate"));
                 writer.key("centre", vector(*centre, Dimension::LENGTH));
