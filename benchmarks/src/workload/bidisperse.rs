@@ -3,7 +3,7 @@
 use pulvis_contact::ContactModel;
 use pulvis_core::{Particle, Setup};
 use pulvis_math::{Vector3, elementary};
-use pulvis_packing::{Lattice, gaussian_vector, random_stream};
+use pulvis_packing::{Lattice, Structure, gaussian_vector, random_stream};
 use rand::seq::SliceRandom;
 
 use super::{RADIUS, edge_of_cube, of_one_material, periodic_cube, sphere};
@@ -52,7 +52,13 @@ pub(crate) fn setup(plan: &Plan, model: ContactModel) -> Result<Setup, Failure> 
 
 fn cubic(edge: f64, per_edge: usize) -> Vec<Vector3> {
     let spacing = edge / per_edge as f64;
-    let lattice = Lattice { lower: Vector3::zero(), counts: [per_edge; 3], spacing, jitter: 0.0 };
+    let lattice = Lattice {
+        lower: Vector3::zero(),
+        counts: [per_edge; 3],
+        spacing,
+        jitter: 0.0,
+        structure: Structure::SimpleCubic,
+    };
     lattice.sites().collect()
 }
 

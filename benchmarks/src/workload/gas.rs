@@ -5,7 +5,7 @@ use std::path::Path;
 use pulvis_contact::ContactModel;
 use pulvis_core::{Particle, Setup};
 use pulvis_math::{Vector3, elementary};
-use pulvis_packing::{Lattice, RadiusDistribution, Random, gaussian_vector, random_stream};
+use pulvis_packing::{Lattice, RadiusDistribution, Random, Structure, gaussian_vector, random_stream};
 use rand::seq::SliceRandom;
 
 use super::{RADIUS, edge_of_cube, of_one_material, periodic_cube, sphere, table};

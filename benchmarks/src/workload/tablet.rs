@@ -4,7 +4,7 @@ use pulvis_contact::ContactModel;
 use pulvis_core::Setup;
 use pulvis_core::walls::{Velocity, Wall, WallMotion};
 use pulvis_math::{Vector3, elementary};
-use pulvis_packing::{Lattice, random_stream};
+use pulvis_packing::{Lattice, Structure, random_stream};
 
 use super::{RADIUS, of_one_material, sphere};
 use crate::failure::Failure;
@@ -23,7 +23,13 @@ pub(crate) fn setup(count: usize, model: ContactModel) -> Result<Setup, Failure>
         return Err(Failure::NoCube(count));
     }
     let spacing = SPACING * 2.0 * RADIUS;
-    let lattice = Lattice { lower: Vector3::zero(), counts: [per_edge; 3], spacing, jitter: JITTER };
+    let lattice = Lattice {
+        lower: Vector3::zero(),
+        counts: [per_edge; 3],
+        spacing,
+        jitter: JITTER,
+        structure: Structure::SimpleCubic,
+    };
     let sites = lattice.positions(&mut random_stream(216));
     let particles = sites.into_iter().map(|site| sphere(site, RADIUS, Vector3::zero())).collect();
     Ok(Setup { walls: walls(per_edge as f64 * spacing), ..of_one_material(particles, model) })

@@ -17,7 +17,7 @@ pub use background::{Background, Drag};
 pub use cuboid::Cuboid;
 pub use deformation::UpperTriangular;
 pub use domain::{Domain, Images};
-pub use motion::{CellContent, CellControl, CellMotion, WallMotion};
+pub use motion::{CellContent, CellControl, CellMotion, GroupMotion, WallMotion};
 pub use region::Region;
 pub use shape::{
     Cone, Cylinder, CylinderSide, Disk, EdgedShape, Edgeless, EdgelessShape, FeatureSurface, InvalidMesh,

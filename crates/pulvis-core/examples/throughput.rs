@@ -14,7 +14,7 @@ use pulvis_contact::{ContactModel, Friction, Linear, Luding, SpringSlider};
 use pulvis_core::observation::ObservationPlan;
 use pulvis_core::{Background, Domain, Interactions, Particle, Setup, Simulation, shortest_contact};
 use pulvis_math::{Vector3, elementary};
-use pulvis_packing::{Lattice, gaussian_vector, random_stream};
+use pulvis_packing::{Lattice, Structure, gaussian_vector, random_stream};
 
 const RADIUS: f64 = 0.5e-3;
 
@@ -46,7 +46,13 @@ fn setup(law: &str, side: usize) -> Setup {
     let spacing = 1.96 * RADIUS;
     let edge = side as f64 * spacing;
     let mut random = random_stream(1);
-    let lattice = Lattice { lower: Vector3::zero(), counts: [side; 3], spacing, jitter: 0.01 };
+    let lattice = Lattice {
+        lower: Vector3::zero(),
+        counts: [side; 3],
+        spacing,
+        jitter: 0.01,
+        structure: Structure::SimpleCubic,
+    };
     let mass = 4.0 / 3.0 * std::f64::consts::PI * 2500.0 * elementary::powi(RADIUS, 3);
     let particles: Vec<Particle> = lattice
         .positions(&mut random)

@@ -8,9 +8,9 @@ use pulvis_contact::ContactEnergies;
 /// [closing error](Ledger::closing_error).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
-    /// Kinetic energy of translation [J].
+    /// Kinetic energy of translation [J]; that of particles with a prescribed motion is not counted.
     pub kinetic_translation: f64,
-    /// Kinetic energy of rotation [J].
+    /// Kinetic energy of rotation [J], of the same particles.
     pub kinetic_rotation: f64,
     /// −dt²/8 Σ (f²/m + τ²/I): the part of the discrete energy that velocity-Verlet conserves beside the kinetic energy. With
     /// the work of the forces by the trapezoidal rule, K − dt²/8 Σ f²/m changes by exactly that work in every step. Without
@@ -55,7 +55,7 @@ pub struct Ledger {
     pub dissipated_torsion: f64,
     /// Dissipated by background drag [J].
     pub dissipated_background: f64,
-    /// Work done on the particles by walls with a prescribed motion [J].
+    /// Work done on the particles by walls, and by particles, with a prescribed motion [J].
     pub work_walls: f64,
     /// Work done on the particles by servo-controlled walls [J].
     pub work_servo: f64,

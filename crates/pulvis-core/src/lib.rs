@@ -29,12 +29,13 @@ pub use ledger::Ledger;
 pub use particles::{MaterialIndex, Particle, ParticleId, Particles, Vectors};
 pub use phases::Phases;
 pub use pulvis_boundary::{
-    Background, CellContent, CellControl, CellMotion, Domain, Region, TemperatureProgram, UpperTriangular,
+    Background, CellContent, CellControl, CellMotion, Domain, GroupMotion, Region, TemperatureProgram,
+    UpperTriangular,
 };
 pub use pulvis_math::InstructionSet;
 pub use simulation::{
-    Alarm, CellState, DeepContact, Limits, ListState, ParticleState, Setup, SetupError, Simulation, State,
-    StateError, StepError, WallRecord,
+    Alarm, CellState, DeepContact, Group, GroupLoad, GroupRecord, Limits, ListState, ParticleState, Setup,
+    SetupError, Simulation, State, StateError, StepError, WallRecord,
 };
 pub use time_step::{
     MotionKind, ShortestContact, ShortestMotion, TouchingAtOnce, shortest_contact, shortest_motion,

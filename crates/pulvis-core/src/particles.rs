@@ -47,7 +47,7 @@ pub struct Particles {
     // Kinematic columns. Between the two kicks of a step, velocity and angular velocity are those at mid-step.
     /// Centre [m] and radius [m].
     pub(crate) position: Vec<Packed4>,
-    /// Velocity [m/s] and 1/mass [1/kg].
+    /// Velocity [m/s] and 1/mass [1/kg]; zero in place of 1/mass where the motion is prescribed, so that kicks do nothing.
     pub(crate) velocity: Vec<Packed4>,
     /// Angular velocity [rad/s] and 1/radius [1/m].
     pub(crate) angular_velocity: Vec<Packed4>,
@@ -65,6 +65,8 @@ pub struct Particles {
     pub(crate) columns: Vec<NamedColumn>,
     /// The id of the next particle: no id is used twice.
     pub(crate) next_id: ParticleId,
+    /// Whether the motion of any particle is prescribed.
+    pub(crate) any_prescribed: bool,
 }
 
 /// Force and torque on a body.
@@ -270,6 +272,17 @@ impl Particles {
     #[inline(always)]
     pub(crate) fn inertia(&self, row: usize) -> f64 {
         SOLID_SPHERE * self.mass[row] * self.radius[row] * self.radius[row]
+    }
+
+    /// Whether the motion of a particle is prescribed: forces do not move it.
+    #[inline(always)]
+    pub fn is_prescribed(&self, row: usize) -> bool {
+        self.velocity[row].scalar == 0.0
+    }
+
+    /// Prescribes the motion of a particle, or leaves it to the forces again.
+    pub(crate) fn prescribe(&mut self, row: usize, prescribed: bool) {
+        self.velocity[row].scalar = if prescribed { 0.0 } else { 1.0 / self.mass[row] };
     }
 
     /// Puts the rows into a new order: row k becomes what was row `order[k]`; rows that are not in `order` are removed.

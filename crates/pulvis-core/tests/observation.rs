@@ -10,7 +10,7 @@ use pulvis_contact::{ContactModel, Linear};
 use pulvis_core::observation::{Observation, ObservationPlan, Tensor, deviator, eigenvalues, pressure};
 use pulvis_core::{Background, Domain, Particle, Region, Setup, Simulation};
 use pulvis_math::Vector3;
-use pulvis_packing::{Lattice, random_stream};
+use pulvis_packing::{Lattice, Structure, random_stream};
 use std::f64::consts::PI;
 
 const DIAMETER: f64 = 2.0 * RADIUS;
@@ -116,7 +116,13 @@ fn the_pressure_of_equal_spheres_follows_from_solid_fraction_coordination_and_fo
 /// A jittered, compressed lattice in a box of fixed walls, or with gravity in a box that is open above, at rest.
 fn resting(cells: [usize; 3], spacing: f64, strength: f64) -> (Simulation, [f64; 3]) {
     let mut random = random_stream(3);
-    let lattice = Lattice { lower: Vector3::zero(), counts: cells, spacing, jitter: 0.05 };
+    let lattice = Lattice {
+        lower: Vector3::zero(),
+        counts: cells,
+        spacing,
+        jitter: 0.05,
+        structure: Structure::SimpleCubic,
+    };
     let particles = lattice.positions(&mut random).into_iter().map(at_rest).collect();
     let lengths = cells.map(|cells| cells as f64 * spacing);
     let mut walls = cube_of_walls(0.0);

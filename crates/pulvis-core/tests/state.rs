@@ -5,11 +5,13 @@ mod common;
 
 use common::*;
 use pulvis_boundary::Cuboid;
+use pulvis_boundary::motion::AxisRotation;
 use pulvis_contact::NonContact;
 use pulvis_contact::noncontact::JumpIn;
-use pulvis_core::walls::{Cosine, Extent, FaceArea, PressureRamp, Servo, WallMotion};
+use pulvis_core::walls::{Cosine, Extent, FaceArea, PressureRamp, Servo, Velocity, WallMotion};
 use pulvis_core::{
-    Background, Domain, MemoryError, NamedColumn, Region, Setup, SetupError, Simulation, State, StateError,
+    Background, Domain, GroupMotion, MemoryError, NamedColumn, Region, Setup, SetupError, Simulation, State,
+    StateError,
 };
 use pulvis_math::Vector3;
 use pulvis_packing::{gaussian_vector, random_positions, random_stream};
@@ -128,6 +130,34 @@ fn a_pressed_bed_with_all_kinds_of_memory_goes_on_from_any_step() {
 fn small_and_large_particles_that_fly_around_a_periodic_box_go_on_from_any_step() {
     let powder = wide_distribution();
     assert_goes_on_from_any_step("wide", &powder, start(powder.clone(), 25.0), [2, 203, 150, 99]);
+}
+
+#[test]
+fn a_bed_with_grains_that_are_held_led_and_free_again_goes_on_from_any_step() {
+    let bed = pressed_bed();
+    let mut simulation = start(bed.clone(), 25.0);
+    simulation.advance(900).unwrap();
+    let period = 40.0 * simulation.time_step();
+    let (displacement, cycles) = (vector(0.02 * RADIUS, 0.0, 0.0), 100.0);
+    let middle = vector(7.0 * RADIUS, 7.0 * RADIUS, 7.0 * RADIUS);
+    let axis = AxisRotation { point: middle, axis: vector(0.0, 1.0, 1.0), angular_velocity: 20.0 };
+    let motions = [
+        GroupMotion::Fixed,
+        GroupMotion::Cosine(Cosine { displacement, period, cycles }),
+        GroupMotion::Rotation(axis),
+        GroupMotion::Velocity(Velocity { velocity: vector(0.0, 0.02, 0.0) }),
+        GroupMotion::Free,
+    ];
+    for (number, motion) in motions.into_iter().enumerate() {
+        let ids: Vec<u32> = (0..8).map(|member| 5 * member + number as u32).collect();
+        simulation.set_group(&format!("group {number}"), &ids).unwrap();
+        simulation.set_group_motion(&format!("group {number}"), motion).unwrap();
+    }
+    assert_goes_on_from_any_step("groups", &bed, simulation.clone(), [3, 201, 119, 77]);
+    simulation.advance(400).unwrap();
+    let ledger = simulation.ledger();
+    let works: f64 = simulation.groups().iter().map(|group| group.work()).sum();
+    assert!(works.abs() > 1e-3 * ledger.scale && ledger.relative_error().abs() < 1e-2, "{works} {ledger:?}");
 }
 
 #[test]

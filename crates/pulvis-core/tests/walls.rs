@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods)]
 
 mod common;
+#[path = "walls/groups.rs"]
+mod groups;
 
 use common::*;
 use pulvis_contact::{ContactModel, Linear};

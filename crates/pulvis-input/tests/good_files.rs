@@ -386,3 +386,15 @@ fn inlets_and_outlets_have_what_their_keys_say_and_regions_end_with_the_box() {
     let later = scenario.as_in_stage(1, None);
     assert!(!later.inlets[0].schedule.takes_in("anything") && later.inlets[1].schedule.takes_in("anything"));
 }
+
+#[test]
+fn groups_have_criteria_and_motions() {
+    let scenario = good("groups.toml");
+    let [floor, ball, corner] = &scenario.groups[..] else { panic!("{:?}", scenario.groups) };
+    assert!(floor.region.is_some() && ball.takes_in(99, 1) && !ball.takes_in(99, 0));
+    assert!(corner.takes_in(15, 0) && !corner.takes_in(16, 0) && corner.takes_in(60, 0));
+    let [rest, lead, turn] = &scenario.stages[..] else { panic!() };
+    assert_eq!(rest.groups, [(0, GroupControl { motion: GroupMotion::Fixed, regather: false })]);
+    assert!(lead.until.time == Some(2e-3) && turn.groups[0].1.regather);
+    assert!(matches!(turn.groups[1].1.motion, GroupMotion::Rotation(rotation) if rotation.axis.y == -2.0));
+}

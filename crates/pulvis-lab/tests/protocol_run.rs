@@ -4,6 +4,8 @@
 
 #[path = "protocol_run/files.rs"]
 mod files;
+#[path = "protocol_run/groups.rs"]
+mod groups;
 mod protocol_scenarios;
 #[path = "protocol_run/ranks.rs"]
 mod ranks;

@@ -5,6 +5,7 @@
 //! comes out of them.
 
 mod aggregate;
+mod dense;
 mod gas;
 mod gaussian;
 mod inlet;
@@ -14,10 +15,11 @@ mod radius;
 mod random;
 
 pub use aggregate::{Growth, radius_of_gyration};
+pub use dense::{Jammed, dense_positions};
 pub use gas::GasVelocities;
 pub use gaussian::gaussian_vector;
 pub use inlet::{Amount, Inlet, InletPlan, InletState, InvalidInlet, NewSphere, Room, random_point};
-pub use lattice::Lattice;
+pub use lattice::{Lattice, Structure};
 pub use occupied::OccupiedSpace;
 pub use radius::{InvalidDistribution, LEAST_SHARE, RadiusDistribution};
 pub use rand_chacha::ChaCha8Rng as Random;

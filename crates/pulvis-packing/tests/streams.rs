@@ -3,7 +3,9 @@
 
 use pulvis_boundary::{Cuboid, Domain};
 use pulvis_math::Vector3;
-use pulvis_packing::{Lattice, RadiusDistribution, gaussian_vector, random_positions, random_stream};
+use pulvis_packing::{
+    Lattice, RadiusDistribution, Structure, gaussian_vector, random_positions, random_stream,
+};
 use rand::RngExt;
 
 /// A hash of the bits of numbers in their order.
@@ -37,7 +39,8 @@ fn packings_of_a_seed_have_the_bits_that_they_always_had() {
     assert_eq!(radii, expected);
 
     let lower = Vector3::new(1e-3, -2e-3, 0.3e-3);
-    let lattice = Lattice { lower, counts: [3, 4, 5], spacing: 1.1e-3, jitter: 0.2 };
+    let lattice =
+        Lattice { lower, counts: [3, 4, 5], spacing: 1.1e-3, jitter: 0.2, structure: Structure::SimpleCubic };
     let sites = lattice.positions(&mut random);
     assert_eq!(sites[0].x.to_bits(), 0x3f57_602d_2134_91e0);
     assert_eq!(hash(components(&sites)), 0x90f3_f435_ef8a_2965);

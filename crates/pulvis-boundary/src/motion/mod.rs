@@ -2,6 +2,7 @@
 
 mod cell;
 mod cosine;
+mod group;
 mod parameter;
 mod rotation;
 mod servo;
@@ -9,6 +10,7 @@ mod velocity;
 
 pub use cell::{CellContent, CellControl, CellMotion};
 pub use cosine::Cosine;
+pub use group::{AxisRotation, GroupMotion};
 pub use parameter::{InvalidMotion, Parameter, Presence, Range, Slot};
 pub use rotation::Rotation;
 pub use servo::{PressureRamp, Servo};

@@ -102,6 +102,14 @@ impl Listing {
             let class = 2 * class + usize::from(images.are_crossed(first - second));
             (if between_skins < 0.0 { group * CLASSES + class } else { far }) as u32
         }));
+        // What is held or led does not act on its like, as walls do not: neither could give way.
+        if particles.any_prescribed {
+            let prescribed = |&row: &u32| particles.is_prescribed(row as usize);
+            let pairs = classes.iter_mut().zip(near.iter());
+            pairs
+                .filter(|(_, pair)| pair.rows.iter().all(prescribed))
+                .for_each(|(class, _)| *class = far as u32);
+        }
         counting_sort(classes, far + 1, &mut self.class_starts, &mut self.order);
     }
 
@@ -199,7 +207,9 @@ impl Listing {
         let turned = Turned::of(wall);
         let Self { candidates, features, .. } = self;
         candidates.clear();
-        for row in chunk.rows.clone().filter(|&row| particles.material[row] == material) {
+        let meets_walls = |row: usize| !(particles.any_prescribed && particles.is_prescribed(row));
+        let of_material = |&row: &usize| particles.material[row] == material && meets_walls(row);
+        for row in chunk.rows.clone().filter(of_material) {
             let Packed4 { vector, scalar } = particles.position[row];
             let farthest = skin.of_walls() + (skin.positions()[row].scalar - scalar);
             let mut add = |feature: u32, gap: f64| {

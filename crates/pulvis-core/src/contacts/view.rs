@@ -173,7 +173,8 @@ impl<'a> Views<'a> {
         let particles = self.particles;
         let velocity = |row: usize| particles.velocity[row].vector;
         let angular_velocity = |row: usize| particles.angular_velocity[row].vector;
-        let (centre, radius, mass) = (particles.position[i].vector, &particles.radius, &particles.mass);
+        let (centre, radius) = (particles.position[i].vector, &particles.radius);
+        let inverse_mass = |row: usize| particles.velocity[row].scalar;
         let first = particles.id[i];
         match self.group.partner {
             Partner::Particle => {
@@ -196,7 +197,9 @@ impl<'a> Views<'a> {
                     angular_velocity_j_mid: angular_velocity(j),
                 };
                 let quantities = self.group.quantities(&particles.columns, i, Some(j));
-                let pair = Pair::spheres(mass[i], mass[j], radius[i], radius[j]).with_quantities(quantities);
+                let inverse_radii = 1.0 / radius[i] + 1.0 / radius[j];
+                let pair = Pair::from_sums(inverse_mass(i) + inverse_mass(j), inverse_radii)
+                    .with_quantities(quantities);
                 let second = ContactPartner::Particle(particles.id[j]);
                 let centre_second = centre - separation;
                 Some(Seen { motion, pair, first, second, centre_first: centre, centre_second })
@@ -225,7 +228,7 @@ impl<'a> Views<'a> {
                 };
                 wall.move_against(&surface, normal_turning, centre, &mut motion);
                 let quantities = self.group.quantities(&particles.columns, i, None);
-                let pair = Pair::from_sums(1.0 / mass[i], 1.0 / radius[i] + surface.mean_curvature)
+                let pair = Pair::from_sums(inverse_mass(i), 1.0 / radius[i] + surface.mean_curvature)
                     .with_quantities(quantities);
                 let second = ContactPartner::Wall(index);
                 let centre_second = centre - surface.normal * surface.distance;

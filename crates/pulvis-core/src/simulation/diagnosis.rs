@@ -55,7 +55,10 @@ impl Simulation {
 
     fn contact_time_of(&self, rows: [usize; 2], wall: Option<usize>) -> Option<f64> {
         let particles = &self.particles;
-        let [one, other] = rows.map(|row| (particles.mass[row], particles.radius[row]));
+        // A prescribed motion is that of an infinite mass.
+        let mass =
+            |row: usize| if particles.is_prescribed(row) { f64::INFINITY } else { particles.mass[row] };
+        let [one, other] = rows.map(|row| (mass(row), particles.radius[row]));
         let material = particles.material[rows[0]];
         match wall {
             Some(wall) => {

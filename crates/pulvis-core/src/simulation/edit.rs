@@ -58,10 +58,14 @@ impl Simulation {
     /// hold them.
     ///
     /// # Errors
-    /// As of [`set_positions`](Self::set_positions).
+    /// As of [`set_positions`](Self::set_positions); or several ranks share the simulation.
     pub fn set_applied_forces(&mut self, forces: &[Vector3]) -> Result<(), SetupError> {
         if !forces.is_empty() {
             self.check_vectors("applied_force", forces)?;
+            if self.ranks.is_some() {
+                let problem = "ranks that share a simulation do not tell each other their work".to_owned();
+                return Err(SetupError::Column { name: "applied_force".to_owned(), problem });
+            }
         }
         let before = self.ledger().closing_error();
         let mut applied = std::mem::take(&mut self.particles.applied);

@@ -164,6 +164,28 @@ pub enum SetupError {
         /// Its id.
         id: ParticleId,
     },
+    /// A group has a particle that is not there.
+    #[error("group `{name}`: there is no particle {id}")]
+    NotInGroup {
+        /// Name of the group.
+        name: String,
+        /// The id.
+        id: ParticleId,
+    },
+    /// There is no group of this name.
+    #[error("there is no group `{name}`")]
+    NoGroup {
+        /// The name.
+        name: String,
+    },
+    /// A group cannot move in this way.
+    #[error("group `{name}`: {problem}")]
+    GroupMotion {
+        /// Name of the group.
+        name: String,
+        /// What is wrong.
+        problem: String,
+    },
     /// The time step is no positive number.
     #[error("the time step is {0} s, expected a number greater than zero")]
     TimeStep(f64),

@@ -75,6 +75,7 @@ impl Simulation {
         let (grid, order) = self.sort_rows();
         self.list_among_ranks(&grid, &order)?;
         self.former_rows = order;
+        self.find_rows_of_groups();
         self.note_time_of_list(&mut clock);
         Ok(())
     }
@@ -157,6 +158,7 @@ impl Simulation {
             None => self.list_candidates(&grid, &order),
         }
         self.former_rows = order;
+        self.find_rows_of_groups();
     }
 
     /// Puts the particles into cell order; row k is what was row `order[k]`.

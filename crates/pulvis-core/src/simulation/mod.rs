@@ -7,6 +7,7 @@ mod columns;
 mod diagnosis;
 mod edit;
 mod errors;
+mod groups;
 mod insertion;
 mod limits;
 mod lists;
@@ -19,8 +20,9 @@ mod switch;
 
 pub use diagnosis::DeepContact;
 pub use errors::{Alarm, SetupError, StepError};
+pub use groups::{Group, GroupLoad};
 pub use limits::Limits;
-pub use state::{CellState, ListState, ParticleState, State, StateError, WallRecord};
+pub use state::{CellState, GroupRecord, ListState, ParticleState, State, StateError, WallRecord};
 
 use pulvis_contact::ROOM_TEMPERATURE;
 use pulvis_math::{InstructionSet, Vector3, max_or_nan};
@@ -67,6 +69,8 @@ pub struct Simulation {
     wall_states: Vec<WallState>,
     /// When each wall's present motion began [s].
     wall_starts: Vec<f64>,
+    /// Groups of particles, in the order in which they were made.
+    groups: Vec<Group>,
     domain: Domain,
     /// How the domain deforms.
     cell: Cell,
@@ -203,6 +207,7 @@ impl Simulation {
             interactions,
             wall_states: vec![WallState::default(); walls.len()],
             wall_starts: vec![0.0; walls.len()],
+            groups: Vec::new(),
             domain,
             cell: Cell::new(domain),
             background,

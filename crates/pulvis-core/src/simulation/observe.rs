@@ -2,7 +2,7 @@
 
 use pulvis_math::max_or_nan;
 
-use super::Simulation;
+use super::{Group, Simulation};
 use crate::contacts::{
     Binding, BondCount, Chunk, ContactGroup, ContactTotals, ContactView, Views, view_bindings, view_contacts,
 };
@@ -27,11 +27,15 @@ impl Simulation {
                 for row in rows {
                     let (mass, inertia) = (particles.mass[row], particles.inertia(row));
                     let load = &particles.forces_and_torques[row];
+                    sums[3] -= mass * gravity.dot(particles.position[row].vector);
+                    // Like that of walls, what moves these is outside: see `work_walls`.
+                    if particles.is_prescribed(row) {
+                        continue;
+                    }
                     sums[0] += 0.5 * mass * particles.velocity[row].vector.norm_squared();
                     sums[1] += 0.5 * inertia * particles.angular_velocity[row].vector.norm_squared();
                     sums[2] += load.force.vector.norm_squared() / mass;
                     sums[2] += load.torque.vector.norm_squared() / inertia;
-                    sums[3] -= mass * gravity.dot(particles.position[row].vector);
                 }
                 sums
             });
@@ -60,7 +64,8 @@ impl Simulation {
             dissipated_rolling: stored.dissipated_rolling + unknown,
             dissipated_torsion: stored.dissipated_torsion + unknown,
             dissipated_background: self.running.background,
-            work_walls: self.wall_states.iter().map(|state| state.work_prescribed).sum(),
+            work_walls: self.wall_states.iter().map(|state| state.work_prescribed).sum::<f64>()
+                + self.groups.iter().map(Group::work).sum::<f64>(),
             work_servo: self.wall_states.iter().map(|state| state.work_servo).sum(),
             work_cell: self.cell.work,
             switched: self.running.switched,

@@ -59,8 +59,8 @@ impl Simulation {
         if steps == 0 {
             return Ok(());
         }
-        let deforms = self.cell_moves()?;
-        self.kick_and_drift();
+        let (deforms, leads) = (self.cell_moves()?, self.leads_groups());
+        self.begin_step(leads);
         for left in (0..steps).rev() {
             if deforms {
                 self.deform_cell()?;
@@ -69,14 +69,20 @@ impl Simulation {
             self.step += 1;
             self.renew_if_outdated()?;
             let surveys_energy = self.step.is_multiple_of(ENERGY_SURVEY);
-            // How a cell deforms next may depend on all forces, and its work on the velocities at their time.
-            let pauses = surveys_energy || deforms;
+            // How a cell deforms next may depend on all forces, and its work on the velocities at their time; so does that of
+            // particles that are led.
+            let pauses = surveys_energy || deforms || leads;
             let swept = self.forces_and_kick(false, left > 0 && !pauses);
             let background_power = self.agreed(swept)?;
             self.finish_walls();
-            if deforms {
+            if deforms || leads {
                 let gathered = self.gather_rows_at_end();
                 self.agreed(gathered)?;
+            }
+            if leads {
+                self.finish_groups();
+            }
+            if deforms {
                 self.finish_cell();
             }
             self.time += self.time_step;
@@ -86,7 +92,7 @@ impl Simulation {
                 self.survey_energy()?;
             }
             if pauses && left > 0 {
-                self.kick_and_drift();
+                self.begin_step(leads);
             }
         }
         Ok(())
@@ -102,6 +108,17 @@ impl Simulation {
         self.check_energy(&ledger)?;
         self.check_speeds()?;
         self.survey_overlaps()
+    }
+
+    /// First half kick and drift. Particles that are led drift with the velocity of their path.
+    fn begin_step(&mut self, leads: bool) {
+        if leads {
+            self.lead_groups();
+        }
+        self.kick_and_drift();
+        if leads {
+            self.predict_groups();
+        }
     }
 
     /// First half kick and drift.

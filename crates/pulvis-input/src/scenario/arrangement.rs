@@ -13,17 +13,19 @@ use crate::value::Value;
 use crate::value_reader::ValueReader;
 use pulvis_boundary::Cuboid;
 use pulvis_math::{Dimension, Vector3};
-use pulvis_packing::{Growth, Lattice};
+use pulvis_packing::{Growth, Lattice, Structure};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Where the particles of a group start.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Arrangement {
-    /// On a simple cubic lattice.
+    /// On a cubic lattice.
     Lattice(Lattice),
     /// At random, whole and without overlap, in this block.
     Random(Cuboid),
+    /// At random in this block, where they have grown until they had their size.
+    Dense(Cuboid),
     /// Touching each other in an aggregate that has grown at random.
     Aggregate {
         /// Its centre of mass [m].
@@ -68,9 +70,10 @@ pub(super) fn read_arrangement(
     materials: &[Material],
     folder: &Path,
 ) -> Result<Arrangement, Reported> {
-    let read = match table.selector("kind", &["lattice", "random", "aggregate", "file", "list"])? {
+    let read = match table.selector("kind", &["lattice", "random", "dense", "aggregate", "file", "list"])? {
         "lattice" => read_lattice(&mut table).map(Arrangement::Lattice),
         "random" => read_extent(&mut table).map(Arrangement::Random),
+        "dense" => read_extent(&mut table).map(Arrangement::Dense),
         "aggregate" => {
             let centre = table.required("centre", Vector::of(Dimension::LENGTH));
             let growth = table.required("growth", Choice(&Growth::ALL));
@@ -91,17 +94,20 @@ fn read_lattice(table: &mut TableReader<'_>) -> Result<Lattice, Reported> {
     let spacing = table.required("spacing", QuantityRule::of(Dimension::LENGTH).above(0.0));
     // Beyond half a spacing a particle could change places with its neighbour.
     let jitter = table.or("jitter", QuantityRule::of(Dimension::NONE).at_least(0.0).at_most(0.5), 0.0);
-    let mut sites: i64 = 1;
-    let mut cells = [1; 3];
-    for (cell, count) in cells.iter_mut().zip(counts?) {
-        *cell = usize::try_from(count).unwrap_or(usize::MAX);
-        sites = sites.saturating_mul(count);
-    }
+    let structure = table.or("structure", Choice(&Structure::ALL), Structure::default());
+    let (counts, structure) = (counts?, structure?);
+    let one = Lattice { counts: [1; 3], lower: Vector3::zero(), spacing: 1.0, jitter: 0.0, structure };
+    let of_cell = i64::try_from(one.site_count()).unwrap_or(i64::MAX);
+    let sites = counts.iter().fold(of_cell, |sites, count| sites.saturating_mul(*count));
     if sites > MOST_PARTICLES {
         let problem = Problem::rule(format!("the lattice has {sites} sites"), "1e10 or fewer");
         return Err(table.refuse("counts", problem));
     }
-    Ok(Lattice { lower: lower?.into(), counts: cells, spacing: spacing?, jitter: jitter? })
+    let mut cells = [1; 3];
+    for (cell, count) in cells.iter_mut().zip(counts) {
+        *cell = usize::try_from(count).unwrap_or(usize::MAX);
+    }
+    Ok(Lattice { lower: lower?.into(), counts: cells, spacing: spacing?, jitter: jitter?, structure })
 }
 
 fn read_file(

@@ -96,7 +96,7 @@ fn unfit(motion: &WallMotion, wall: &Wall) -> Option<Problem> {
 }
 
 /// Reads a parameter to where its value stands. `numbers` are those read before, by their keys.
-fn read_parameter(
+pub(super) fn read_parameter(
     table: &mut TableReader<'_>,
     parameter: Parameter<'_>,
     numbers: &mut Vec<(&'static str, f64)>,
@@ -134,7 +134,12 @@ fn read_parameter(
 pub(super) fn write_control(writer: &mut Writer, control: &WallControl) {
     writer.key("control", text(control.name()));
     let Some(mut motion) = control.motion() else { return };
-    for Parameter { name, dimension, value, .. } in motion.parameters() {
+    write_parameters(writer, motion.parameters());
+}
+
+/// Writes the parameters of a motion.
+pub(super) fn write_parameters(writer: &mut Writer, parameters: Vec<Parameter<'_>>) {
+    for Parameter { name, dimension, value, .. } in parameters {
         let value = match value {
             Slot::Number(number) => quantity(*number, dimension),
             Slot::Vector(components) => vector(*components, dimension),

@@ -41,6 +41,7 @@ mod columns;
 mod contacts;
 mod controls;
 mod domain;
+mod groups;
 mod import;
 mod inlets;
 mod limits;
@@ -76,6 +77,7 @@ pub use axis::{Axis, BoxFace, Side};
 pub use columns::ParticleColumn;
 pub use contacts::Contact;
 pub use controls::WallControl;
+pub use groups::{GroupControl, GroupPlan};
 pub use import::{FileReading, PointsError, PointsFormat};
 pub use inlets::Inlet;
 pub use limits::Limits;
@@ -93,14 +95,14 @@ pub use particles::{ParticleGroup, VelocityPlan};
 pub use programs::{Program, ProgramState, Programs};
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};
 pub use pulvis_boundary::{
-    Background, CellControl, CellMotion, Cone, Cuboid, Cylinder, CylinderSide, Disk, Domain, Mesh, Plane,
-    PlaneWithHole, Region, TemperatureProgram, Tube, UpperTriangular, WallMotion, WallShape,
+    Background, CellControl, CellMotion, Cone, Cuboid, Cylinder, CylinderSide, Disk, Domain, GroupMotion,
+    Mesh, Plane, PlaneWithHole, Region, TemperatureProgram, Tube, UpperTriangular, WallMotion, WallShape,
 };
-pub use pulvis_packing::{Amount, GasVelocities, Growth, Lattice, RadiusDistribution};
+pub use pulvis_packing::{Amount, GasVelocities, Growth, Lattice, RadiusDistribution, Structure};
 pub use stages::Stage;
 pub use start::StartFrom;
 pub use time::TimeStep;
-pub use until::{Crossing, PassedRule, ShearRule, StopRules, StrainRule, StressRule};
+pub use until::{Crossing, PassedRule, ShearRule, SteadyRule, StopRules, StrainRule, StressRule};
 pub use wall_mesh::MeshSource;
 pub use walls::Wall;
 
@@ -142,6 +144,8 @@ pub struct Scenario {
     pub enclosure: Option<Cuboid>,
     /// All plane walls; those of the box come first. At the start all of them are fixed.
     pub walls: Vec<Wall>,
+    /// Groups of particles that stages hold, lead or set free.
+    pub groups: Vec<GroupPlan>,
     /// How long a time step is, before the first stage.
     pub time: TimeStep,
     /// The stages, at least one.

@@ -253,14 +253,17 @@ fn fitting_count(
                 given => Ok(given.unwrap_or(sites)),
             }
         }
-        Arrangement::Random(_) | Arrangement::Aggregate { .. } => given.ok_or_else(|| {
-            let what = match arrangement {
-                Arrangement::Random(_) => "a random arrangement",
-                _ => "an aggregate",
-            };
-            let expected = format!("the number of particles of {what}");
-            table.refuse("count", Problem::MissingKey { key: "count".to_owned(), expected })
-        }),
+        Arrangement::Random(_) | Arrangement::Dense(_) | Arrangement::Aggregate { .. } => {
+            given.ok_or_else(|| {
+                let what = match arrangement {
+                    Arrangement::Random(_) => "a random arrangement",
+                    Arrangement::Dense(_) => "a dense arrangement",
+                    _ => "an aggregate",
+                };
+                let expected = format!("the number of particles of {what}");
+                table.refuse("count", Problem::MissingKey { key: "count".to_owned(), expected })
+            })
+        }
     }
 }
 

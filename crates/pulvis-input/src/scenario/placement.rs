@@ -50,12 +50,15 @@ fn points(group: &ParticleGroup) -> Vec<Point> {
     };
     let centre = |number: usize, at: Vector3| Point { what: format!("particle {number},"), at, slack: 0.0 };
     match &group.arrangement {
-        Arrangement::Random(block) => corners("block", block),
+        Arrangement::Random(block) | Arrangement::Dense(block) => corners("block", block),
         Arrangement::Lattice(lattice) if group.count == lattice.site_count() => {
             corners("lattice", &lattice.extent())
         }
         Arrangement::Lattice(lattice) => {
-            let sites = outermost_sites(lattice.counts, group.count).into_iter();
+            let of_cell = lattice.sites_per_cell();
+            let cells = outermost_sites(lattice.counts, group.count.div_ceil(of_cell)).into_iter();
+            let sites = cells.flat_map(|cell| of_cell * cell..of_cell * (cell + 1));
+            let sites = sites.filter(|number| *number < group.count);
             sites.map(|number| centre(number, lattice.site(number))).collect()
         }
         Arrangement::File { grains, .. } => {

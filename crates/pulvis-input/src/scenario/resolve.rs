@@ -1,6 +1,7 @@
 //! What holds in every stage: the document is read once more for each that switches something.
 
 use super::contacts::{Contact, MaterialUse};
+use super::groups::GroupControl;
 use super::programs::{PlannedPrograms, ProgramState, Programs};
 use super::stages::{PlannedStage, Stage};
 use super::switches::{Switch, switched};
@@ -22,7 +23,13 @@ pub(super) fn resolve(
     planned: Vec<PlannedStage>,
 ) -> Result<Vec<Stage>, InputErrors> {
     let document = document.clone();
-    let mut resolution = Resolution { document, scenario, used, cell: Cell::default() };
+    let mut resolution = Resolution {
+        document,
+        scenario,
+        used,
+        cell: Cell::default(),
+        prescribed: vec![false; scenario.groups.len()],
+    };
     let mut stages: Vec<Stage> = Vec::with_capacity(planned.len());
     for stage in planned {
         let stage = resolution.stage(stage, stages.last())?;
@@ -38,6 +45,8 @@ struct Resolution<'a> {
     scenario: &'a Scenario,
     used: &'a MaterialUse,
     cell: Cell,
+    /// The groups whose motion is prescribed now.
+    prescribed: Vec<bool>,
 }
 
 /// What stages have done to the cell so far.
@@ -65,6 +74,7 @@ impl Resolution<'_> {
             remove,
             form_bonds,
             controls,
+            groups,
             cell,
             switches,
             programs,
@@ -83,11 +93,42 @@ impl Resolution<'_> {
             let problem = Problem::rule(found, "no gravity in this stage");
             return Err(self.document.error_at(place, problem).into());
         }
+        self.check_groups(&groups, place)?;
         if let Some(inlet) = self.scenario.inlets.iter().find(|inlet| inlet.schedule.takes_in(&name)) {
             self.check_inlet(inlet, place)?;
         }
         let (form_bonds, cell) = (form_bonds.is_some(), cell.map(|(motion, _)| motion));
-        Ok(Stage { name, until, remove, form_bonds, controls, cell, contacts, background, time, programs })
+        Ok(Stage {
+            name,
+            until,
+            remove,
+            form_bonds,
+            controls,
+            groups,
+            cell,
+            contacts,
+            background,
+            time,
+            programs,
+        })
+    }
+
+    /// Takes note of the groups that a stage holds or leads, which no cell can deform around.
+    fn check_groups(
+        &mut self,
+        groups: &[(usize, GroupControl)],
+        place: &Location,
+    ) -> Result<(), InputErrors> {
+        for (index, control) in groups {
+            self.prescribed[*index] = control.motion.is_prescribed();
+        }
+        let held = self.prescribed.iter().position(|prescribed| *prescribed && self.cell.deforms);
+        let Some(held) = held else { return Ok(()) };
+        let name = &self.scenario.groups[held].name;
+        let found = format!("the cell deforms, but the motion of the group {name} is prescribed");
+        let expected =
+            format!("[stages.groups.{name}] with control = \"free\", or a cell that does not deform");
+        Err(self.document.error_at(place, Problem::rule(found, expected)).into())
     }
 
     /// What holds after the switches of a stage.

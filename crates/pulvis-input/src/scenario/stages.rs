@@ -4,6 +4,7 @@ use super::axis::{Axis, BoxFace, Side};
 use super::cell::read_cell;
 use super::contacts::Contact;
 use super::controls::{WallControl, read_control};
+use super::groups::{GroupControl, GroupPlan, read_group_controls};
 use super::openings::Opening;
 use super::particles::no_tables;
 use super::programs::{PlannedPrograms, Programs, read_programs};
@@ -31,6 +32,8 @@ pub struct Stage {
     pub form_bonds: bool,
     /// The walls whose control changes at its start, by index; other walls go on as before.
     pub controls: Vec<(usize, WallControl)>,
+    /// The groups whose motion changes at its start, by index; others go on as before.
+    pub groups: Vec<(usize, GroupControl)>,
     /// How the periodic cell deforms from its start on; where none is given it goes on as before.
     pub cell: Option<CellMotion>,
     /// One contact for every pair of materials that can meet, in the order of [`super::Scenario::contacts`].
@@ -75,6 +78,7 @@ pub(super) struct PlannedStage {
     /// Where the file says that bonds form at its start.
     pub(super) form_bonds: Option<Location>,
     pub(super) controls: Vec<(usize, WallControl)>,
+    pub(super) groups: Vec<(usize, GroupControl)>,
     /// With its place in the file.
     pub(super) cell: Option<(CellMotion, Location)>,
     pub(super) switches: Vec<Switch>,
@@ -88,6 +92,7 @@ pub(super) fn read_stages(
     root: &mut TableReader<'_>,
     domain: Option<&Domain>,
     walls: &[Wall],
+    groups: &[GroupPlan],
     openings: &[Opening],
     time: TimeStep,
 ) -> Result<Vec<PlannedStage>, Reported> {
@@ -97,7 +102,7 @@ pub(super) fn read_stages(
     }
     let mut stages: Vec<PlannedStage> = Vec::new();
     let controls = vec![WallControl::Motion(WallMotion::Fixed); walls.len()];
-    let mut now = Now { domain, openings, controls, cell: CellMotion::default(), time };
+    let mut now = Now { domain, groups, openings, controls, cell: CellMotion::default(), time };
     let mut failure = None;
     for table in tables {
         match read_stage(table, walls, &mut now, &stages) {
@@ -111,6 +116,8 @@ pub(super) fn read_stages(
 /// What the stages before have left behind.
 struct Now<'a> {
     domain: Option<&'a Domain>,
+    /// The groups of the scenario.
+    groups: &'a [GroupPlan],
     /// The inlets and outlets of the scenario.
     openings: &'a [Opening],
     controls: Vec<WallControl>,
@@ -135,6 +142,7 @@ fn read_stage(
     let remove = read_region(&mut table, "remove");
     let form_bonds = read_formation(&mut table);
     let controls = read_controls(&mut table, walls, now);
+    let groups = read_group_controls(&mut table, now.groups, now.domain);
     let cell = read_cell_now(&mut table, walls, now);
     let switches = read_switches(&mut table);
     let programs = read_programs(&mut table, until.as_ref().ok());
@@ -142,9 +150,14 @@ fn read_stage(
     if let Ok(time) = time {
         now.time = time;
     }
-    let until = match (until, &controls, &cell) {
-        (Ok(until), Ok(controls), Ok(_)) => complete(&table, until, controls, walls, now),
-        (Err(reported), ..) | (_, &Err(reported), _) | (.., &Err(reported)) => Err(reported),
+    let until = match (until, &controls, &groups, &cell) {
+        (Ok(until), Ok(controls), Ok(groups), Ok(_)) => {
+            let walls_end = controls.iter().filter_map(|(_, control)| control.duration());
+            let groups_end = groups.iter().filter_map(|(_, control)| control.motion.duration());
+            complete(&table, until, walls_end.chain(groups_end), walls, now)
+        }
+        (Err(reported), ..) => Err(reported),
+        (_, &Err(reported), ..) | (_, _, &Err(reported), _) | (.., &Err(reported)) => Err(reported),
     };
     let place = table.location("");
     table.finish();
@@ -154,6 +167,7 @@ fn read_stage(
         remove: remove?,
         form_bonds: form_bonds?,
         controls: controls?,
+        groups: groups?,
         cell: cell?,
         switches: switches?,
         programs: programs?,
@@ -205,18 +219,17 @@ fn read_controls(
 fn complete(
     table: &TableReader<'_>,
     mut until: StopRules,
-    controls: &[(usize, WallControl)],
+    durations: impl Iterator<Item = f64>,
     walls: &[Wall],
     now: &Now<'_>,
 ) -> Result<StopRules, Reported> {
     if until.is_empty() {
-        let durations = controls.iter().filter_map(|(_, control)| control.duration());
         // A fraction of a cycle may be too short for a number.
         let longest = durations.filter(|duration| *duration > 0.0).reduce(f64::max);
         until.time = Some(longest.ok_or_else(|| {
             let found = "the stage has no end";
             let expected =
-                "a rule in [stages.until], for example time = \"1 ms\", or a wall that moves by cosine";
+                "a rule in [stages.until], for example time = \"1 ms\", or a wall or group that moves by cosine";
             table.refuse("until", Problem::rule(found, expected))
         })?);
         return Ok(until);

@@ -8,13 +8,13 @@ use crate::context::Reported;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
-use crate::shape::{Choice, Integer, Name};
+use crate::shape::{Choice, Integer, Name, Text};
 use pulvis_boundary::UpperTriangular;
 use pulvis_math::Dimension;
 use pulvis_packing::Amount;
 
 /// A stage ends as soon as any of these holds; at least one is given.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct StopRules {
     /// Duration of the stage [s].
     pub time: Option<f64>,
@@ -33,6 +33,22 @@ pub struct StopRules {
     pub stress: Option<StressRule>,
     /// So much has passed an inlet or outlet.
     pub passed: Option<PassedRule>,
+    /// A column of the time series no longer drifts.
+    pub steady: Option<SteadyRule>,
+}
+
+/// The means of a column of the time series over blocks of time no longer drift: over so many blocks in a row the straight line
+/// through them changes by no more than its standard error, or than a share of their mean.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SteadyRule {
+    /// Name of the column.
+    pub column: String,
+    /// Duration of a block [s].
+    pub block: f64,
+    /// Number of blocks, three at least.
+    pub blocks: u32,
+    /// The share of the mean [1].
+    pub tolerance: f64,
 }
 
 /// So much has passed an inlet or outlet since the start of the run.
@@ -47,13 +63,13 @@ pub struct PassedRule {
 impl StopRules {
     /// Whether no rule is given.
     pub fn is_empty(&self) -> bool {
-        let Self { minimum_time, pressure_tolerance, .. } = *self;
+        let &Self { minimum_time, pressure_tolerance, .. } = self;
         *self == Self { minimum_time, pressure_tolerance, ..Self::default() }
     }
 
     /// Whether something else than time may end the stage, so that nobody knows when.
     pub fn are_open_ended(&self) -> bool {
-        !Self { time: None, ..*self }.is_empty()
+        !Self { time: None, ..self.clone() }.is_empty()
     }
 
     /// The rules that look at the two box walls of an axis, by their keys.
@@ -133,6 +149,7 @@ pub(super) fn read_until(stage: &mut TableReader<'_>, openings: &[Opening]) -> R
     let passed = table
         .optional_table("passed")
         .and_then(|rule| rule.map(|rule| read_passed(rule, openings)).transpose());
+    let steady = table.optional_table("steady").and_then(|rule| rule.map(read_steady).transpose());
     let minimum_time = match (minimum_time, &kinetic_to_elastic, &time) {
         (Ok(Some(_)), Ok(None), _) => {
             let problem =
@@ -156,6 +173,7 @@ pub(super) fn read_until(stage: &mut TableReader<'_>, openings: &[Opening]) -> R
         shear_strain: shear?,
         stress: stress?,
         passed: passed?,
+        steady: steady?,
     })
 }
 
@@ -186,6 +204,13 @@ pub(super) fn write_until(writer: &mut Writer, until: &StopRules, openings: &[&s
         let crosses = text(rule.crosses.name());
         writer.key("stress", format!("{{ axis = {axis}, value = {value}, crosses = {crosses} }}"));
     }
+    if let Some(SteadyRule { column, block, blocks, tolerance }) = &until.steady {
+        let (column, block) = (text(column), quantity(*block, Dimension::TIME));
+        let tolerance = number(*tolerance);
+        let rule =
+            format!("{{ column = {column}, block = {block}, blocks = {blocks}, tolerance = {tolerance} }}");
+        writer.key("steady", rule);
+    }
     if let Some(PassedRule { opening, amount }) = until.passed {
         let name = text(openings.get(opening).unwrap_or(&""));
         let amount = match amount {
@@ -194,6 +219,18 @@ pub(super) fn write_until(writer: &mut Writer, until: &StopRules, openings: &[&s
         };
         writer.key("passed", format!("{{ name = {name}, {amount} }}"));
     }
+}
+
+fn read_steady(mut table: TableReader<'_>) -> Result<SteadyRule, Reported> {
+    let column = table.required("column", Text);
+    let block = table.required("block", QuantityRule::of(Dimension::TIME).above(0.0));
+    // A line through two points has no error.
+    let blocks = table.or("blocks", Integer::between(3, 1000), 5);
+    let tolerance = table.or("tolerance", QuantityRule::of(Dimension::NONE).at_least(0.0), 1e-3);
+    table.finish();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 3 to 1000
+    let blocks = blocks? as u32;
+    Ok(SteadyRule { column: column?, block: block?, blocks, tolerance: tolerance? })
 }
 
 fn read_passed(mut table: TableReader<'_>, openings: &[Opening]) -> Result<PassedRule, Reported> {

@@ -4,6 +4,7 @@ use super::allow::read_allow;
 use super::columns::{ParticleColumn, needs_quantity};
 use super::contacts::{Contact, MaterialUse, read_contacts};
 use super::domain::{read_background, read_domain};
+use super::groups::{check_group_names, read_groups};
 use super::limits::read_limits;
 use super::materials::{Material, read_materials};
 use super::observers::{check_discards, durations, read_observers};
@@ -28,7 +29,7 @@ use pulvis_boundary::{Background, TemperatureProgram};
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
-const KEYS: [&str; 20] = [
+const KEYS: [&str; 21] = [
     "title",
     "start_from",
     "seed",
@@ -44,6 +45,7 @@ const KEYS: [&str; 20] = [
     "outlets",
     "box",
     "walls",
+    "groups",
     "time",
     "stages",
     "limits",
@@ -89,11 +91,20 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     let enclosure = walls.as_ref().ok().and_then(|walls| walls.enclosure.as_ref());
     let placed = groups.as_ref().ok().map(|groups| &groups[..]);
     let openings = read_openings(&mut root, &materials, placed, known, enclosure);
-    let stages = match (&walls, &time, &openings) {
-        (Ok(walls), Ok(time), Ok(openings)) => {
-            read_stages(&mut root, known, &walls.walls, &openings.list(), *time)
+    let particle_groups = match (&walls, &openings) {
+        (Ok(walls), Ok(openings)) => {
+            let others: Vec<String> = openings.list().into_iter().map(|opening| opening.name).collect();
+            read_groups(&mut root, &materials, &walls.walls, &others)
         }
-        (&Err(reported), ..) | (_, &Err(reported), _) | (.., &Err(reported)) => Err(reported),
+        (&Err(reported), _) | (_, &Err(reported)) => Err(reported),
+    };
+    let stages = match (&walls, &time, &openings, &particle_groups) {
+        (Ok(walls), Ok(time), Ok(openings), Ok(groups)) => {
+            read_stages(&mut root, known, &walls.walls, groups, &openings.list(), *time)
+        }
+        (&Err(reported), ..) | (_, &Err(reported), ..) | (_, _, &Err(reported), _) | (.., &Err(reported)) => {
+            Err(reported)
+        }
     };
     let names: Option<Vec<&str>> =
         stages.as_ref().ok().map(|stages| stages.iter().map(|stage| stage.name.as_str()).collect());
@@ -105,6 +116,8 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         let durations = stages.as_ref().map_or_else(|_| vec![None], |stages| durations(stages));
         check_discards(&root, &observers, &durations)?;
         openings.as_ref().map_or(Ok(()), |openings| openings.check_observers(&root, &observers))?;
+        let groups = particle_groups.as_ref().map_or(&[][..], |groups| &groups[..]);
+        check_group_names(&root, groups, &observers)?;
         Ok(observers)
     });
     let columns = match (&groups, &openings) {
@@ -155,6 +168,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         outlets: openings.outlets.into_iter().map(|(outlet, _)| outlet).collect(),
         enclosure: walls.enclosure,
         walls: walls.walls,
+        groups: particle_groups?,
         time: time?,
         stages: Vec::new(),
         allow: allow?,

@@ -3,6 +3,7 @@
 use super::shapes::*;
 use crate::scenario::PointsFormat;
 use pulvis_boundary::WallShape;
+use pulvis_packing::Structure;
 use serde_json::Value;
 
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
@@ -51,6 +52,7 @@ fn arrangement(page: Page<'_>) -> Value {
         ("counts", exactly(3, whole(1))),
         ("spacing", quantity()),
         ("jitter", number()),
+        ("structure", choice(Structure::ALL.map(|(name, _)| name))),
     ];
     let file = vec![
         ("path", text()),
@@ -66,6 +68,7 @@ fn arrangement(page: Page<'_>) -> Value {
         [
             ("lattice", lattice, &["lower", "counts", "spacing"][..]),
             ("random", vec![("lower", vector()), ("upper", vector())], &["lower", "upper"]),
+            ("dense", vec![("lower", vector()), ("upper", vector())], &["lower", "upper"]),
             (
                 "aggregate",
                 vec![("centre", vector()), ("growth", choice(["particle-cluster", "cluster-cluster"]))],

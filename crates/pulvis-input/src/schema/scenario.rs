@@ -45,6 +45,7 @@ pub(super) fn file(page: Page<'_>) -> Value {
         ("outlets", "Where particles leave during the run.", tables(outlets(page))),
         ("box", "Six plane walls.", enclosure(page)),
         ("walls", "Further walls by their names.", named(walls(page))),
+        ("groups", "Groups of particles by their names.", named(groups(page))),
         ("time", "The time step.", time(page)),
         ("stages", "What happens, in order.", tables(stages(page))),
         ("limits", "What stops a run.", limits(page)),
@@ -103,6 +104,7 @@ fn stages(page: Page<'_>) -> Value {
             ("remove", region(page)),
             ("form_bonds", boolean()),
             ("walls", named(control(page))),
+            ("groups", named(group_control(page))),
             ("cell", cell(page)),
             ("set", named(anything())),
             ("programs", named(list(exactly(2, any_quantity())))),
@@ -121,6 +123,10 @@ fn until(page: Page<'_>) -> Value {
         "crosses" => "In which direction.",
         "name" => "Name of an inlet or outlet.",
         "number" => "So many particles since the start of the run.",
+        "column" => "A column of the time series.",
+        "block" => "Duration of a block [s].",
+        "blocks" => "Number of blocks in a row.",
+        "tolerance" => "A drift of this share of the mean is none.",
         _ => "So much mass since the start of the run [kg].",
     };
     let rule = |keys: Vec<(&'static str, Value)>, required: &[&str]| {
@@ -135,6 +141,10 @@ fn until(page: Page<'_>) -> Value {
         &["axis", "value", "crosses"],
     );
     let passed = rule(vec![("name", text()), ("number", whole(1)), ("mass", quantity())], &["name"]);
+    let steady = rule(
+        vec![("column", text()), ("block", quantity()), ("blocks", whole(3)), ("tolerance", number())],
+        &["column", "block"],
+    );
     page.at("`[stages.until]`").table(
         [
             ("time", quantity()),
@@ -145,6 +155,7 @@ fn until(page: Page<'_>) -> Value {
             ("shear_strain", shear),
             ("stress", stress),
             ("passed", passed),
+            ("steady", steady),
         ],
         &[],
     )
@@ -165,6 +176,28 @@ fn control(page: Page<'_>) -> Value {
             ("removed", Vec::new(), &[]),
         ],
     )
+}
+
+fn groups(page: Page<'_>) -> Value {
+    let keys = [("material", text()), ("region", region(page)), ("ids", list(exactly(2, whole(0))))];
+    page.at("`[groups.NAME]`").table(keys, &[])
+}
+
+fn group_control(page: Page<'_>) -> Value {
+    let cosine = vec![("displacement", vector()), ("period", quantity()), ("cycles", number())];
+    let rotation = vec![("point", vector()), ("axis", vector()), ("angular_velocity", quantity())];
+    let variants = [
+        ("free", Vec::new(), &[][..]),
+        ("fixed", Vec::new(), &[]),
+        ("velocity", vec![("velocity", vector())], &["velocity"]),
+        ("cosine", cosine, &["displacement", "period"]),
+        ("rotation", rotation, &["point", "axis", "angular_velocity"]),
+    ];
+    let variants = variants.map(|(name, mut keys, required)| {
+        keys.push(("regather", boolean()));
+        (name, keys, required)
+    });
+    page.at("`[stages.groups.NAME]`").variants("control", None, variants)
 }
 
 fn cell(page: Page<'_>) -> Value {

@@ -299,7 +299,9 @@ pub(crate) fn stages(scenario: &Scenario, prepared: &Prepared) -> Vec<StageForec
     plans
         .map(|((stage, plan), motion)| {
             let rules = &stage.until;
-            let cycles = plan.wall_changes.iter().filter_map(|(_, control)| control.duration());
+            let walls = plan.wall_changes.iter().filter_map(|(_, control)| control.duration());
+            let cycles =
+                walls.chain(stage.groups.iter().filter_map(|(_, control)| control.motion.duration()));
             let duration = rules.time.or_else(|| cycles.max_by(f64::total_cmp));
             let strained = cell::time_to_strain(rules, motion);
             let duration = duration.into_iter().chain(strained).min_by(f64::total_cmp);
@@ -323,7 +325,7 @@ fn least_steps(stage: &Stage, time_step: f64, duration: Option<f64>) -> u64 {
     let most = duration.unwrap_or(f64::INFINITY);
     let least = match (
         rules.kinetic_to_elastic,
-        rules.strain.is_some() || rules.stress.is_some() || rules.passed.is_some(),
+        rules.strain.is_some() || rules.stress.is_some() || rules.passed.is_some() || rules.steady.is_some(),
     ) {
         (None, false) => most,
         (Some(_), false) => most.min(rules.minimum_time + LEAST_STEPS_TO_REST as f64 * time_step),

@@ -119,6 +119,16 @@ pub enum PrepareError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RunError {
+    /// Nobody belongs to a group.
+    #[error(
+        "stage {stage}: no particle belongs to the group {group} when it is gathered, at the start of this stage; look at its criteria in [groups.{group}]"
+    )]
+    EmptyGroup {
+        /// The stage.
+        stage: String,
+        /// The group.
+        group: String,
+    },
     /// It could not start.
     #[error(transparent)]
     Prepare(#[from] PrepareError),

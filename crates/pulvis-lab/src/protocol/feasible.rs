@@ -34,6 +34,9 @@ pub(super) fn check_feasible(
                 course.check_pressure(number, *place, pressure, particles, plan, &walls[*place].wall)?;
             }
         }
+        for (index, control) in &stage.groups {
+            course.check_group_speed(number, *index, control.motion.highest_speed(), plan.time_step)?;
+        }
         start_stage(walls.iter_mut().map(|known| &mut known.wall), stage);
         let duration = exact_duration(&stage.until);
         if let Some(duration) = duration {
@@ -156,6 +159,24 @@ impl Course<'_> {
             }
         }
         Ok(())
+    }
+
+    fn check_group_speed(
+        &self,
+        stage: usize,
+        index: usize,
+        speed: f64,
+        time_step: f64,
+    ) -> Result<(), PrepareError> {
+        let name = &self.scenario.groups[index].name;
+        let Some(problem) = self.too_fast(format!("the group {name} moves at"), speed, time_step) else {
+            return Ok(());
+        };
+        let table = format!("stages[{stage}].groups.{name}");
+        let help =
+            "lower the speed, or shorten the step, for example by more `steps_per_contact_time` in [time]";
+        let paths = [format!("{table}.velocity"), table];
+        refuse_unless_allowed(self.scenario, Refusal::Speed, &[&paths[0], &paths[1]], problem, help)
     }
 
     /// Refuses a pressure that even a face full of the smallest particles carries only pressed in by more than the

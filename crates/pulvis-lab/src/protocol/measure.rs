@@ -7,6 +7,7 @@ use pulvis_input::scenario::{ClusterRule, Scenario, WallShape};
 
 use super::cell;
 use super::clusters::{self, Clusters, clusters};
+use super::groups;
 use super::observers;
 use super::openings::{self, Openings};
 use super::stage::{length, wall_force, wall_stress};
@@ -69,6 +70,7 @@ pub fn column_names(scenario: &Scenario) -> Vec<String> {
         };
         columns.extend(names.iter().map(|name| format!("{name}_{}", wall.name)));
     }
+    columns.extend(groups::columns(scenario));
     if scenario.output.dimensionless.is_some() {
         columns.extend(AXES.iter().flat_map(|axis| [format!("D_{axis}"), format!("F_{axis}")]));
     }
@@ -98,6 +100,13 @@ impl Measure {
         let mut measure = Self { columns, bonds, scaled, observed };
         measure.take_reference(scenario, simulation);
         measure
+    }
+
+    /// The stage of this number has ended.
+    pub(super) fn end_stage(&mut self, scenario: &Scenario, simulation: &Simulation, number: usize) {
+        if scenario.output.dimensionless.and_then(|scales| scales.reference_stage) == Some(number) {
+            self.take_reference(scenario, simulation);
+        }
     }
 
     /// The present lengths of the sample become L0 of the dimensionless displacement.
@@ -193,6 +202,7 @@ impl Measure {
                 }
             }
         }
+        row.extend(groups::values(scenario, simulation));
         if let Some(scaled) = &self.scaled {
             for (axis, (now, reference)) in lengths.iter().zip(scaled.reference).enumerate() {
                 let displacement = now.zip(reference);

@@ -6,7 +6,7 @@ use pulvis_core::{Domain, MaterialIndex, NamedColumn, Particle};
 use pulvis_input::Problem;
 use pulvis_input::scenario::{Arrangement, Grain, ParticleColumn, ParticleGroup, Scenario};
 use pulvis_math::{Vector3, elementary};
-use pulvis_packing::{Random, random_positions, random_stream};
+use pulvis_packing::{Random, dense_positions, random_positions, random_stream};
 
 use super::error::PrepareError;
 
@@ -88,6 +88,15 @@ fn centres(
                 let problem = Problem::rule(no_room.to_string(), "room for all particles");
                 let path = format!("particles[{place}].arrangement");
                 scenario.mistake(&[&path], problem, "enlarge the region or take fewer particles").into()
+            })
+        }
+        Arrangement::Dense(region) => {
+            let present: Vec<_> =
+                present.iter().map(|particle| (particle.position, particle.radius)).collect();
+            dense_positions(radii, region, domain, &present, random).map_err(|jammed| {
+                let problem = Problem::rule(jammed.to_string(), "fewer particles or a larger block");
+                let path = format!("particles[{place}].arrangement");
+                scenario.mistake(&[&path], problem, "above some 0.6 press the sample in a stage").into()
             })
         }
         Arrangement::Aggregate { centre, growth } => {

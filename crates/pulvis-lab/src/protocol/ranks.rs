@@ -16,6 +16,7 @@ use pulvis_parallel::exchange::{Exchange, ExchangeError, Message, Waiting};
 use super::checkpoint::find;
 use super::error::{PrepareError, RunError};
 use super::folder::RECORD;
+use super::measure::Measure;
 use super::openings::Openings;
 use super::pace::PACE;
 use super::programs::{models_after, update};
@@ -223,6 +224,7 @@ fn follow_from_start(
         update: 0,
         plans,
         walls_arrive: origin.stage_ended,
+        measure: Measure::new(scenario, &simulation),
         simulation,
         exchange,
         stop,
@@ -249,7 +251,10 @@ fn follow_from_checkpoint(
     let (number, update) = (results.len(), record.update as usize);
     let stage = &scenario.stages[record.stage()];
     let rules = record.watch.as_ref().map(|watch| StageWatch::resume(&scenario, stage, watch));
+    let mut measure = Measure::new(&scenario, &simulation);
+    measure.resume(record.reference);
     let mut follower = Follower {
+        measure,
         scenario: &scenario,
         openings: Openings::new(&scenario, Some(&record.openings)),
         interactions: models_after(&scenario, stage, update),
@@ -273,6 +278,8 @@ struct Follower<'a> {
     plans: Vec<StagePlan>,
     walls_arrive: bool,
     openings: Openings,
+    /// What the rule `steady` looks at.
+    measure: Measure,
     exchange: &'a Arc<dyn Exchange>,
     stop: &'a AtomicBool,
 }
@@ -312,7 +319,8 @@ impl<'a> Follower<'a> {
         let mut rules = match watch {
             Some(rules) => rules,
             None => {
-                switch(&mut self.simulation, &mut self.interactions, plan, stage, self.walls_arrive)?;
+                let (simulation, interactions) = (&mut self.simulation, &mut self.interactions);
+                switch(simulation, interactions, scenario, (plan, stage), self.walls_arrive)?;
                 (self.walls_arrive, self.update) = (true, 0);
                 self.openings.enter_stage(&stage.name, &self.simulation);
                 StageWatch::new(scenario, stage, &self.simulation)
@@ -328,6 +336,7 @@ impl<'a> Follower<'a> {
                 TELL_EVERYTHING => tell(&mut self.simulation, Look::Everything)?,
                 NEXT_STAGE => {
                     tell(&mut self.simulation, Look::Everything)?;
+                    self.measure.end_stage(scenario, &self.simulation, number);
                     return Ok(true);
                 }
                 _ => {}
@@ -351,7 +360,7 @@ impl<'a> Follower<'a> {
             let (models, present) = (&mut self.interactions, &mut self.update);
             update(&mut self.simulation, models, present, programs, rules.start_time())?;
             self.openings.act(&mut self.simulation).map_err(|source| RunError::inlet(&stage.name, source))?;
-            has_ended = rules.ending(&self.simulation, &self.openings).is_some();
+            has_ended = rules.ending(&self.simulation, &self.openings, &self.measure, number).is_some();
         }
     }
 }

@@ -15,12 +15,14 @@ use super::checkpoint::Ancestor;
 use super::damping::refuse_overdamped;
 use super::error::PrepareError;
 use super::feasible::check_feasible;
+use super::groups::check_groups;
 use super::memory::refuse_too_many;
 use super::openings::{OpeningsRecord, check_openings, sample_of_inlets};
 use super::particles::{columns, generate};
 use super::programs::program_plans;
 use super::refusal::refuse_setup;
 use super::start::branch;
+use super::steady::check_steady;
 
 /// A simulation before its first step, and what its stages will need.
 #[derive(Clone, Debug)]
@@ -101,6 +103,8 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
     refuse_overdamped(scenario, &sample)?;
     check_feasible(scenario, &sample, &walls, &stages)?;
     check_cell(scenario, &particles, &stages, &CellMotion::default())?;
+    check_groups(scenario, &simulation)?;
+    check_steady(scenario, &stages)?;
     let origin = Origin {
         ancestors: Vec::new(),
         interactions: first.interactions.clone(),

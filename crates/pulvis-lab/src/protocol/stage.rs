@@ -6,9 +6,11 @@ use pulvis_input::scenario::{Crossing, Programs, Scenario, Stage, StopRules, Wal
 
 use super::cell::time_to_strain;
 use super::checkpoint::WatchRecord;
+use super::measure::Measure;
 use super::openings::Openings;
 use super::programs::elapsed;
 use super::setup::{box_walls, extent};
+use super::steady::Steady;
 use pulvis_core::walls::Extent;
 
 /// Steps between two looks at rules that cost time.
@@ -32,18 +34,28 @@ pub enum Ending {
     Strain,
     /// The stress was reached.
     Stress,
-    /// The wall had done its cycles.
+    /// The wall or the group had done its cycles.
     Cycles,
     /// Enough had passed an inlet or outlet.
     Passed,
+    /// A column of the time series no longer drifted.
+    Steady,
     /// The user stopped the run.
     Interrupted,
 }
 
 impl Ending {
     /// All endings, in the order of their numbers in checkpoints.
-    const ALL: [Self; 7] =
-        [Self::Time, Self::AtRest, Self::Strain, Self::Stress, Self::Cycles, Self::Interrupted, Self::Passed];
+    const ALL: [Self; 8] = [
+        Self::Time,
+        Self::AtRest,
+        Self::Strain,
+        Self::Stress,
+        Self::Cycles,
+        Self::Interrupted,
+        Self::Passed,
+        Self::Steady,
+    ];
 
     /// Its number in checkpoints.
     pub(super) fn number(self) -> u8 {
@@ -64,6 +76,7 @@ impl Ending {
             Self::Stress => "stress reached",
             Self::Cycles => "cycles done",
             Self::Passed => "enough has passed",
+            Self::Steady => "steady",
             Self::Interrupted => "interrupted",
         }
     }
@@ -93,6 +106,7 @@ pub(super) struct StageWatch<'a> {
     start_strain: [f64; 6],
     calm_looks: u32,
     last_stress: Option<f64>,
+    steady: Steady,
 }
 
 impl<'a> StageWatch<'a> {
@@ -107,13 +121,21 @@ impl<'a> StageWatch<'a> {
             start_strain: simulation.cell_strain().to_array(),
             calm_looks: 0,
             last_stress: None,
+            steady: Steady::default(),
         }
     }
 
     /// Goes on watching over a stage of an interrupted run.
     pub(super) fn resume(scenario: &'a Scenario, stage: &'a Stage, record: &WatchRecord) -> Self {
-        let &WatchRecord { start_step, start_time, start_lengths, start_strain, calm_looks, last_stress } =
-            record;
+        let WatchRecord {
+            start_step,
+            start_time,
+            start_lengths,
+            start_strain,
+            calm_looks,
+            last_stress,
+            steady,
+        } = record.clone();
         let (rules, programs) = (&stage.until, stage.programs.as_ref());
         Self {
             scenario,
@@ -125,6 +147,7 @@ impl<'a> StageWatch<'a> {
             start_strain,
             calm_looks,
             last_stress,
+            steady,
         }
     }
 
@@ -140,8 +163,10 @@ impl<'a> StageWatch<'a> {
             start_strain,
             calm_looks,
             last_stress,
+            ref steady,
         } = self;
-        WatchRecord { start_step, start_time, start_lengths, start_strain, calm_looks, last_stress }
+        let steady = steady.clone();
+        WatchRecord { start_step, start_time, start_lengths, start_strain, calm_looks, last_stress, steady }
     }
 
     /// Extent along each axis at the start of the stage [m].
@@ -180,13 +205,23 @@ impl<'a> StageWatch<'a> {
 
     /// What [`ending`](Self::ending) looks at now that one of several ranks does not know by itself.
     pub(super) fn look(&self, simulation: &Simulation) -> Look {
-        let of_particles = self.rules.stress.is_some() || self.rules.kinetic_to_elastic.is_some();
         let looks = (simulation.steps() - self.start_step).is_multiple_of(LOOK_EVERY);
-        if of_particles && looks { Look::Particles } else { Look::Totals }
+        let StopRules { steady, stress, kinetic_to_elastic, .. } = self.rules;
+        match looks {
+            true if steady.is_some() => Look::Everything,
+            true if stress.is_some() || kinetic_to_elastic.is_some() => Look::Particles,
+            _ => Look::Totals,
+        }
     }
 
-    /// Whether the stage ends now.
-    pub(super) fn ending(&mut self, simulation: &Simulation, openings: &Openings) -> Option<Ending> {
+    /// Whether the stage, which has this number, ends now. `measure` takes what the rule `steady` looks at.
+    pub(super) fn ending(
+        &mut self,
+        simulation: &Simulation,
+        openings: &Openings,
+        measure: &Measure,
+        number: usize,
+    ) -> Option<Ending> {
         // Half a step of tolerance: sums of time steps are not exact.
         let elapsed = simulation.time() - self.start_time + 0.5 * simulation.time_step();
         let cycles = cycles_duration(simulation);
@@ -208,9 +243,26 @@ impl<'a> StageWatch<'a> {
         if self.stress_reached(simulation) {
             return Some(Ending::Stress);
         }
+        if self.is_steady(simulation, openings, measure, number) {
+            return Some(Ending::Steady);
+        }
         let calm = self.is_calm(simulation, elapsed);
         self.calm_looks = if calm { self.calm_looks + 1 } else { 0 };
         (self.calm_looks >= LOOKS_IN_A_ROW).then_some(Ending::AtRest)
+    }
+
+    fn is_steady(
+        &mut self,
+        simulation: &Simulation,
+        openings: &Openings,
+        measure: &Measure,
+        number: usize,
+    ) -> bool {
+        let Some(rule) = &self.rules.steady else { return false };
+        let row = measure.row(self.scenario, simulation, openings, number + 1, self.start_lengths);
+        // That there is such a column has been checked before the run.
+        let value = measure.column(&rule.column).map_or(f64::NAN, |column| row[column]);
+        self.steady.look(rule, simulation.time() - self.start_time, value)
     }
 
     fn is_calm(&self, simulation: &Simulation, elapsed: f64) -> bool {
@@ -314,7 +366,9 @@ pub(super) fn whole_steps(time: f64, simulation: &Simulation) -> u64 {
 /// Duration of the longest motion with an end that is under way [s].
 fn cycles_duration(simulation: &Simulation) -> Option<f64> {
     let present = simulation.walls().iter().filter(|wall| wall.present);
-    present.filter_map(|wall| wall.motion.law().duration()).max_by(f64::total_cmp)
+    let walls = present.filter_map(|wall| wall.motion.law().duration());
+    let groups = simulation.groups().iter().filter_map(|group| group.motion().duration());
+    walls.chain(groups).max_by(f64::total_cmp)
 }
 
 /// Extent of the sample along an axis now [m].

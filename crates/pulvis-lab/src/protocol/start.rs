@@ -14,12 +14,14 @@ use super::damping::refuse_overdamped;
 use super::error::PrepareError;
 use super::feasible::{check_feasible, start_stage};
 use super::frame::frame_of;
+use super::groups::check_groups;
 use super::openings::{check_openings, sample_of_inlets};
 use super::particles::generate;
 use super::programs::{models_after, program_plans};
 use super::run::StageResult;
 use super::setup::{Origin, Prepared, StagePlan, drawn_walls, interactions, stages};
 use super::stage::Ending;
+use super::steady::check_steady;
 
 /// An interrupted run that can go on.
 pub(super) struct Resumed {
@@ -232,6 +234,8 @@ pub(super) fn branch(scenario: &Scenario, start: &StartFrom) -> Result<Prepared,
     refuse_overdamped(scenario, &sample)?;
     check_feasible(scenario, &sample, simulation.walls(), &stages)?;
     check_cell(scenario, &particles, &stages, simulation.cell_motion())?;
+    check_groups(scenario, &simulation)?;
+    check_steady(scenario, &stages)?;
     let origin = Origin { ancestors, interactions: models, stage_ended, openings };
     Ok(Prepared { simulation, stages, particles, sample, origin })
 }

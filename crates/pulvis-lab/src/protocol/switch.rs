@@ -2,9 +2,10 @@
 
 use pulvis_core::walls::WallMotion;
 use pulvis_core::{Interactions, Simulation};
-use pulvis_input::scenario::{Stage, WallControl};
+use pulvis_input::scenario::{Scenario, Stage, WallControl};
 
 use super::error::RunError;
+use super::groups::switch_groups;
 use super::setup::StagePlan;
 
 /// Switches a simulation, which has these `interactions`, to what holds during a stage. `walls_arrive`: motions of walls
@@ -12,8 +13,8 @@ use super::setup::StagePlan;
 pub(super) fn switch(
     simulation: &mut Simulation,
     interactions: &mut Interactions,
-    plan: &StagePlan,
-    stage: &Stage,
+    scenario: &Scenario,
+    (plan, stage): (&StagePlan, &Stage),
     walls_arrive: bool,
 ) -> Result<(), RunError> {
     if let Some(region) = &stage.remove {
@@ -43,6 +44,8 @@ pub(super) fn switch(
             simulation.set_wall_present(*place, false);
         }
     }
+    // Before the cell deforms, which groups that are held would keep it from.
+    switch_groups(simulation, scenario, stage, walls_arrive)?;
     if let Some(motion) = stage.cell {
         simulation.set_cell_motion(motion).map_err(failed)?;
     }

@@ -1,6 +1,6 @@
 //! What is valid and yet probably not meant.
 
-use pulvis_boundary::{CellControl, CellMotion, WallMotion};
+use pulvis_boundary::{CellControl, CellMotion, GroupMotion, WallMotion};
 use pulvis_contact::bond::Form;
 use pulvis_input::scenario::{Axis, BoxFace, Crossing, Scenario, Side, Stage, WallControl};
 use pulvis_math::Vector3;
@@ -25,6 +25,7 @@ pub fn warnings(scenario: &Scenario, prepared: &Prepared) -> Vec<String> {
 /// What sets the sample in motion, stage by stage.
 struct Driven {
     controls: Vec<WallControl>,
+    groups: Vec<GroupMotion>,
     gravity: bool,
     cell: CellMotion,
     /// Whether anything has moved by the end of the stages so far.
@@ -40,6 +41,7 @@ impl Driven {
         prepared.simulation.for_each_contact(&mut |contact| pushed |= contact.force.norm_squared() > 0.0);
         Self {
             controls: vec![WallControl::Motion(WallMotion::Fixed); scenario.walls.len()],
+            groups: scenario.groups.iter().map(|group| known(prepared, &group.name)).collect(),
             gravity: false,
             cell: *prepared.simulation.cell_motion(),
             moved: pushed || prepared.sample.iter().any(moves),
@@ -50,14 +52,19 @@ impl Driven {
         for (wall, control) in &stage.controls {
             self.controls[*wall] = *control;
         }
+        for (group, control) in &stage.groups {
+            self.groups[*group] = control.motion;
+        }
         self.gravity = stage.background.gravity.norm_squared() > 0.0;
         self.cell = stage.cell.unwrap_or(self.cell);
         self.moved |= self.gravity || self.has_moving_wall();
     }
 
-    /// Or a cell that deforms.
+    /// Or a group that is led, or a cell that deforms.
     fn has_moving_wall(&self) -> bool {
-        self.cell.moves() || self.controls.iter().any(|control| !stands_still(control))
+        self.cell.moves()
+            || self.groups.iter().any(GroupMotion::is_led)
+            || self.controls.iter().any(|control| !stands_still(control))
     }
 
     /// The controls of the walls of the box along an axis.
@@ -94,7 +101,8 @@ impl Driven {
     /// reach is certain, and was checked with the file.
     fn needs_time(&self, stage: &Stage) -> bool {
         let rules = &stage.until;
-        let has_cycles = self.controls.iter().any(|control| control.duration().is_some());
+        let has_cycles = self.controls.iter().any(|control| control.duration().is_some())
+            || self.groups.iter().any(|motion| motion.duration().is_some());
         let at_rate = |component: usize| matches!(self.cell.components[component], CellControl::Rate(_));
         let certain_shear = rules.shear_strain.is_some_and(|rule| at_rate(rule.component));
         let followed = rules
@@ -138,6 +146,11 @@ impl Driven {
             )
         })
     }
+}
+
+/// How a group of the run before moves.
+fn known(prepared: &Prepared, name: &str) -> GroupMotion {
+    prepared.simulation.group(name).map_or(GroupMotion::Free, |group| *group.motion())
 }
 
 /// Whether a wall does not move, or is not there.

@@ -80,8 +80,8 @@ impl Simulation {
     /// as `work_cell`. Drag acts against the motion relative to the flow.
     ///
     /// # Errors
-    /// A component deforms along a direction that is not periodic; a wall is present, or there is gravity: neither can
-    /// follow the cell; a number cannot be, or a rate strains the cell by more than a hundredth in a time step.
+    /// A component deforms along a direction that is not periodic; a wall is present, the motion of a group is prescribed, or
+    /// there is gravity: none can follow the cell; a number cannot be, or a rate strains the cell by more than a hundredth in a time step.
     pub fn set_cell_motion(&mut self, motion: CellMotion) -> Result<(), SetupError> {
         super::checks::check_cell_motion(&motion, &self.domain, self.time_step)?;
         if motion.moves() {
@@ -101,6 +101,12 @@ impl Simulation {
         let refused = |problem: String| Err(SetupError::Cell { problem });
         if let Some(wall) = self.walls.iter().find(|wall| wall.present) {
             return refused(format!("the wall `{}` is there, which cannot follow it", wall.name));
+        }
+        if let Some(group) = self.groups.iter().find(|group| group.motion().is_prescribed()) {
+            let name = group.name();
+            return refused(format!(
+                "the motion of the group `{name}` is prescribed, which cannot follow it"
+            ));
         }
         let gravity = self.background.gravity;
         if gravity != Vector3::zero() {

@@ -1,9 +1,9 @@
 //! What a state must be before anything is made of it.
 
-use super::{CellState, ListState, ParticleState, State, StateError};
+use super::{CellState, GroupRecord, ListState, ParticleState, State, StateError};
 use crate::particles::ParticleId;
-use crate::simulation::check_count;
 use crate::simulation::checks::check_cell_motion;
+use crate::simulation::{SetupError, check_count};
 use crate::walls::Wall;
 
 const FINITE: &str = "a finite number";
@@ -36,6 +36,7 @@ impl State {
         self.check_ids()?;
         self.list.check(rows)?;
         self.check_walls(walls)?;
+        self.check_groups()?;
         if self.keeps_ledger {
             check_numbers("ledger", &self.ledger)?;
         }
@@ -53,6 +54,32 @@ impl State {
                 Err(StateError::Id { id, problem: "has not been given yet: it is not below `next_id`" })
             }
             _ => Ok(()),
+        }
+    }
+
+    fn check_groups(&self) -> Result<(), StateError> {
+        let mut prescribed: Vec<ParticleId> = Vec::new();
+        let mut known = self.particles.id.clone();
+        known.sort_unstable();
+        for GroupRecord { name, ids, motion, start, travelled, work } in &self.groups {
+            let owner = |of: &str| format!("{of} of group `{name}`");
+            check_values(&owner("start"), [*start], FINITE)?;
+            check_values(&owner("travelled"), *travelled, FINITE)?;
+            check_values(&owner("work"), [*work], FINITE)?;
+            let sorted = ids.windows(2).all(|pair| pair[0] < pair[1]);
+            if let Some(&id) = ids.iter().find(|id| !sorted || known.binary_search(id).is_err()) {
+                return Err(StateError::Id { id, problem: "of a group is not there, or not in order" });
+            }
+            if let Err(invalid) = motion.check() {
+                let (name, problem) = (name.clone(), invalid.to_string());
+                return Err(SetupError::GroupMotion { name, problem }.into());
+            }
+            prescribed.extend(ids.iter().filter(|_| motion.is_prescribed()));
+        }
+        prescribed.sort_unstable();
+        match prescribed.windows(2).find(|pair| pair[0] == pair[1]) {
+            Some(twice) => Err(StateError::Id { id: twice[0], problem: "is prescribed by two groups" }),
+            None => Ok(()),
         }
     }
 

@@ -2,10 +2,10 @@
 
 use pulvis_math::Packed4;
 
-use super::{CellState, ListState, ParticleState, State, WallRecord};
+use super::{CellState, GroupRecord, ListState, ParticleState, State, WallRecord};
 use crate::neighbours::{ListedWall, Moved, Skin};
 use crate::particles::{ForceTorque, Particles};
-use crate::simulation::{Outcome, Simulation};
+use crate::simulation::{Group, Outcome, Simulation};
 use crate::walls::{Wall, WallState};
 
 impl Simulation {
@@ -20,6 +20,7 @@ impl Simulation {
             walls,
             wall_states,
             wall_starts,
+            groups,
             domain,
             cell,
             background,
@@ -75,6 +76,7 @@ impl Simulation {
             next_id: particles.next_id,
             particles: particles_of(particles),
             walls: walls_of(walls, wall_states, wall_starts, &skin.walls),
+            groups: groups.iter().map(group_of).collect(),
             list,
             memory,
             totals: contacts.totals(),
@@ -101,6 +103,8 @@ fn particles_of(particles: &Particles) -> ParticleState {
         applied: _,
         columns,
         next_id: _,
+        // Follows from the groups.
+        any_prescribed: _,
     } = particles;
     let vectors = |column: &[Packed4]| column.iter().map(|packed| packed.vector.to_array()).collect();
     // The halo sums of the last step follow those of the rows.
@@ -131,6 +135,19 @@ fn walls_of(walls: &[Wall], states: &[WallState], starts: &[f64], listed: &[List
         motion: state.numbers(),
     };
     walls.iter().zip(states).zip(starts).zip(listed).map(record).collect()
+}
+
+fn group_of(group: &Group) -> GroupRecord {
+    // Rows follow from ids.
+    let Group { name, ids, rows: _, motion, start, travelled, work } = group;
+    GroupRecord {
+        name: name.clone(),
+        ids: ids.clone(),
+        motion: *motion,
+        start: *start,
+        travelled: travelled.to_array(),
+        work: *work,
+    }
 }
 
 /// The parts of skins and integration that belong to the neighbour list.

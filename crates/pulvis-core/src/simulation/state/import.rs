@@ -2,14 +2,14 @@
 
 use pulvis_math::{Packed4, Vector3};
 
-use super::{CellState, ListState, ParticleState, State, StateError, WallRecord};
+use super::{CellState, GroupRecord, ListState, ParticleState, State, StateError, WallRecord};
 use crate::columns::NumberReader;
 use crate::contacts::{BrokenBonds, Interactions};
 use crate::ledger::Running;
 use crate::neighbours::{CellGrid, Moved, Skin};
 use crate::particles::{ForceTorque, Particle, Particles};
-use crate::simulation::Simulation;
 use crate::simulation::cell::Cell;
+use crate::simulation::{Group, Simulation};
 use crate::walls::{Wall, WallState};
 
 impl Simulation {
@@ -39,6 +39,7 @@ impl Simulation {
             Self::without_list(particles, interactions, walls, listed, background, time_step);
         simulation.temperature.clone_from(&state.temperature);
         simulation.broken_bonds = BrokenBonds::new(&state.broken_bonds);
+        simulation.take_in_groups(&state.groups);
         simulation.check_models()?;
         simulation.check_walls()?;
         simulation.remake_list(&state.list)?;
@@ -46,6 +47,20 @@ impl Simulation {
         simulation.contacts.restore_totals(state.totals);
         simulation.go_to_present(state)?;
         Ok(simulation)
+    }
+
+    /// Before the list is made: particles whose motion is prescribed have no contacts among themselves.
+    fn take_in_groups(&mut self, groups: &[GroupRecord]) {
+        let group = |record: &GroupRecord| {
+            let GroupRecord { name, ids, motion, start, travelled, work } = record.clone();
+            let travelled = Vector3::from(travelled);
+            Group { name, ids, rows: Vec::new(), motion, start, travelled, work }
+        };
+        self.groups = groups.iter().map(group).collect();
+        self.find_rows_of_groups();
+        for group in self.groups.iter().filter(|group| group.motion.is_prescribed()) {
+            group.rows.iter().for_each(|&row| self.particles.prescribe(row as usize, true));
+        }
     }
 
     /// Makes the neighbour list of the state again. Particles and walls are then where they were at that rebuild.

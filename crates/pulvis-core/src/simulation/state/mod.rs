@@ -10,7 +10,7 @@ pub use error::StateError;
 use crate::columns::NamedColumn;
 use crate::contacts::{BrokenBond, ContactRecords, ContactTotals};
 use crate::particles::{MaterialIndex, ParticleId};
-use pulvis_boundary::{Background, CellMotion, Domain, TemperatureProgram};
+use pulvis_boundary::{Background, CellMotion, Domain, GroupMotion, TemperatureProgram};
 
 /// Everything that decides the next bit of a simulation, as plain columns. [`Simulation::import_state`] makes a simulation
 /// of it that continues the exported one, bit for bit, for any number of threads and on any instruction set.
@@ -44,6 +44,8 @@ pub struct State {
     pub particles: ParticleState,
     /// The walls, in the order of the list of walls.
     pub walls: Vec<WallRecord>,
+    /// Groups of particles, in the order in which they were made.
+    pub groups: Vec<GroupRecord>,
     /// The state at the last rebuild, and how far bodies have moved since.
     pub list: ListState,
     /// Memory of the contacts, one table for each kind of memory.
@@ -111,6 +113,23 @@ pub struct WallRecord {
     pub motion_start: f64,
     /// What its motion keeps between steps, by name, in SI units.
     pub motion: Vec<(String, f64)>,
+}
+
+/// A group of particles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroupRecord {
+    /// Its name.
+    pub name: String,
+    /// The ids of its particles, ascending.
+    pub ids: Vec<ParticleId>,
+    /// How it moves.
+    pub motion: GroupMotion,
+    /// When that motion began [s].
+    pub start: f64,
+    /// Displacement since then [m].
+    pub travelled: [f64; 3],
+    /// Work done by leading it so far [J].
+    pub work: f64,
 }
 
 /// The state at the last rebuild, from which an import makes the same neighbour list.

@@ -46,9 +46,14 @@ impl Scenario {
                 writer.key("counts", list(lattice.counts.map(|count| count.to_string())));
                 writer.key("spacing", quantity(lattice.spacing, Dimension::LENGTH));
                 writer.key("jitter", number(lattice.jitter));
+                writer.key("structure", text(lattice.structure.name()));
             }
             Arrangement::Random(block) => {
                 writer.key("kind", text("random"));
+                write_extent(writer, block);
+            }
+            Arrangement::Dense(block) => {
+                writer.key("kind", text("dense"));
                 write_extent(writer, block);
             }
             Arrangement::Aggregate { centre, growth } => {

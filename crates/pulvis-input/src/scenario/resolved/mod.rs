@@ -4,6 +4,7 @@ pub(super) mod bodies;
 mod stages;
 pub(super) mod writer;
 
+use super::groups::write_groups;
 use super::inlets::write_inlets;
 use super::observers::write_observers;
 use super::outlets::write_outlets;
@@ -70,6 +71,7 @@ impl Scenario {
         write_inlets(&mut writer, &self.inlets, |material| self.material_text(material));
         write_outlets(&mut writer, &self.outlets);
         self.write_walls(&mut writer);
+        write_groups(&mut writer, &self.groups, |material| self.material_text(material));
         writer.table("time");
         write_time(&mut writer, self.time);
         writer.table("limits");

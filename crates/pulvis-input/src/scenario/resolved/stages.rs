@@ -4,6 +4,7 @@ use super::writer::{Writer, key, quantity, text};
 use super::{gravity, key_of_law, law_keys, write_time};
 use crate::scenario::cell::write_cell;
 use crate::scenario::controls::write_control;
+use crate::scenario::groups::write_group_control;
 use crate::scenario::programs::write_programs;
 use crate::scenario::region::write_region;
 use crate::scenario::until::write_until;
@@ -40,6 +41,11 @@ impl Scenario {
                 let name = self.walls.get(*index).map_or("", |wall| wall.name.as_str());
                 writer.table(&format!("stages.walls.{}", key(name)));
                 write_control(writer, control);
+            }
+            for (index, control) in &stage.groups {
+                let name = self.groups.get(*index).map_or("", |group| group.name.as_str());
+                writer.table(&format!("stages.groups.{}", key(name)));
+                write_group_control(writer, control);
             }
             if let Some(motion) = &stage.cell {
                 writer.table("stages.cell");

@@ -2,6 +2,7 @@
 
 mod cell;
 mod find;
+mod groups;
 mod keeper;
 mod planes;
 mod state;
@@ -17,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::openings::OpeningsRecord;
 use super::snapshots::BlockRecord;
+use super::steady::Steady;
 pub use find::{FindError, checkpoint_files, has_ended};
 pub(super) use find::{Found, find, of_run};
 pub(super) use keeper::{Keeper, Purpose};
@@ -111,6 +113,7 @@ pub(super) struct WatchRecord {
     pub(super) start_strain: [f64; 6],
     pub(super) calm_looks: u32,
     pub(super) last_stress: Option<f64>,
+    pub(super) steady: Steady,
 }
 
 impl RunRecord {

@@ -1,17 +1,18 @@
-//! The state of a simulation as version 3 of the format has it.
+//! The state of a simulation as version 5 of the format has it.
 //!
 //! [`State`] may change with the engine; what stands in files may not. The conversions list every field, so that the compiler
 //! asks about each new one: another version of the format is due then.
 
 use pulvis_boundary::Cuboid;
 use pulvis_core::{
-    Background, BrokenBond, ContactRecords, ContactTotals, Domain, ListState, MemoryColumn, NamedColumn,
-    ParticleState, State, TemperatureProgram, WallRecord,
+    Background, BrokenBond, ContactRecords, ContactTotals, Domain, GroupRecord, ListState, MemoryColumn,
+    NamedColumn, ParticleState, State, TemperatureProgram, WallRecord,
 };
 use pulvis_math::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::cell::{CellEntry, domain_of};
+use super::groups::GroupEntry;
 use super::planes;
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -32,6 +33,7 @@ pub(super) struct StateRecord {
     next_id: u32,
     pub(super) particles: ParticleColumns,
     walls: Vec<WallEntry>,
+    groups: Vec<GroupEntry>,
     list: ListColumns,
     memory: Vec<MemoryTable>,
     totals: Totals,
@@ -139,6 +141,7 @@ impl From<State> for StateRecord {
             next_id,
             particles,
             walls,
+            groups,
             list,
             memory,
             totals,
@@ -162,6 +165,7 @@ impl From<State> for StateRecord {
             next_id,
             particles: particles.into(),
             walls: walls.into_iter().map(WallEntry::from).collect(),
+            groups: groups.into_iter().map(GroupEntry::from).collect(),
             list: list.into(),
             memory: memory.into_iter().map(MemoryTable::from).collect(),
             totals: totals.into(),
@@ -195,6 +199,7 @@ impl TryFrom<StateRecord> for State {
             next_id,
             particles,
             walls,
+            groups,
             list,
             memory,
             totals,
@@ -215,6 +220,7 @@ impl TryFrom<StateRecord> for State {
             next_id,
             particles: particles.into(),
             walls: walls.into_iter().map(WallRecord::from).collect(),
+            groups: groups.into_iter().map(GroupRecord::try_from).collect::<Result<_, _>>()?,
             list: list.into(),
             memory: memory.into_iter().map(ContactRecords::from).collect(),
             totals: totals.into(),

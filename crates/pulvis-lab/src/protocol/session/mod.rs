@@ -125,7 +125,8 @@ impl Session {
         let number = self.results.len();
         if self.watch.is_none() {
             let (plan, stage) = (&self.plans[number], &self.scenario.stages[number]);
-            switch(&mut self.simulation, &mut self.interactions, plan, stage, self.walls_arrive)?;
+            let (models, scenario) = (&mut self.interactions, &self.scenario);
+            switch(&mut self.simulation, models, scenario, (plan, stage), self.walls_arrive)?;
             self.walls_arrive = true;
             self.update = 0;
             self.openings.enter_stage(&stage.name, &self.simulation);
@@ -147,7 +148,7 @@ impl Session {
             update(&mut self.simulation, models, present, programs, rules.start_time())?;
             let acted = self.openings.act(&mut self.simulation);
             acted.map_err(|source| RunError::inlet(&stage.name, source))?;
-            let ending = rules.ending(&self.simulation, &self.openings);
+            let ending = rules.ending(&self.simulation, &self.openings, &self.measure, number);
             if ending.is_some() || left == 0 {
                 break ending;
             }
@@ -157,9 +158,7 @@ impl Session {
     }
 
     fn end_stage(&mut self, number: usize, ending: Ending) -> StageResult {
-        if self.scenario.output.dimensionless.and_then(|scales| scales.reference_stage) == Some(number) {
-            self.measure.take_reference(&self.scenario, &self.simulation);
-        }
+        self.measure.end_stage(&self.scenario, &self.simulation, number);
         let (time, steps) = (self.simulation.time(), self.simulation.steps());
         let result = StageResult { name: self.scenario.stages[number].name.clone(), ending, time, steps };
         self.results.push(result.clone());

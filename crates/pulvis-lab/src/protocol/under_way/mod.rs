@@ -198,7 +198,7 @@ impl<'a> Run<'a> {
         let mut pace = Pace::new(self.simulation.steps());
         let ending = loop {
             self.advance(number, &rules, stop)?;
-            if let Some(ending) = rules.ending(&self.simulation, &self.openings) {
+            if let Some(ending) = rules.ending(&self.simulation, &self.openings, &self.measure, number) {
                 break ending;
             }
             let simulation = &self.simulation;
@@ -226,9 +226,7 @@ impl<'a> Run<'a> {
         if ending != Ending::Interrupted {
             self.histograms(number)?;
         }
-        if scenario.output.dimensionless.and_then(|scales| scales.reference_stage) == Some(number) {
-            self.measure.take_reference(scenario, &self.simulation);
-        }
+        self.measure.end_stage(scenario, &self.simulation, number);
         let progress = self.progress(number, &mut pace, None, Some(ending));
         self.status.tell(&progress);
         watch(&progress);
@@ -280,7 +278,8 @@ impl<'a> Run<'a> {
 
     fn switch_to(&mut self, number: usize) -> Result<(), RunError> {
         let (plan, stage) = (&self.plans[number], &self.scenario.stages[number]);
-        switch(&mut self.simulation, &mut self.interactions, plan, stage, self.walls_arrive)?;
+        let scenario = self.scenario;
+        switch(&mut self.simulation, &mut self.interactions, scenario, (plan, stage), self.walls_arrive)?;
         self.walls_arrive = true;
         self.update = 0;
         Ok(())
