@@ -45,8 +45,9 @@ fn describe_parameter<'py>(py: Python<'py>, parameter: &Parameter) -> PyResult<B
     described.set_item("required", parameter.presence == Presence::Required && parameter.mixing.is_none())?;
     let choices = match parameter.kind {
         Kind::Choice(options) => Some(options.iter().map(|option| (option.name, option.meaning)).collect()),
-        Kind::Number { .. } => None::<Vec<_>>,
+        Kind::Number { .. } | Kind::Numbers { .. } => None::<Vec<_>>,
     };
+    described.set_item("is_list", matches!(parameter.kind, Kind::Numbers { .. }))?;
     described.set_item("choices", choices)?;
     Ok(described)
 }

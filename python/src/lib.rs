@@ -4,6 +4,7 @@
 mod catalogue;
 mod collision;
 mod columns;
+mod edit;
 mod errors;
 mod interrupt;
 mod parallel;

@@ -1,6 +1,8 @@
 //! A simulation in the hands of Python.
 
-use numpy::{PyArray1, PyArray2};
+use std::path::PathBuf;
+
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pulvis_core::ContactPartner;
 use pulvis_lab::protocol::{Session as Stages, StageResult};
 use pyo3::prelude::*;
@@ -9,7 +11,7 @@ use pyo3::types::{PyDict, PyList};
 use crate::interrupt::{Chunks, detached};
 use crate::scenario::{Source, read};
 use crate::views::{self, Alive};
-use crate::{columns, errors};
+use crate::{columns, edit, errors};
 
 /// Name, end, time and steps of a stage that has ended.
 type Ended = (String, &'static str, f64, u64);
@@ -17,11 +19,19 @@ type Ended = (String, &'static str, f64, u64);
 /// The stages of a scenario, step by step.
 #[pyclass(module = "pulvis._native")]
 pub struct Session {
-    stages: Stages,
-    alive: Alive,
+    pub(crate) stages: Stages,
+    pub(crate) alive: Alive,
 }
 
 impl Session {
+    /// Refuses changes of columns that arrays look at.
+    fn free(&self) -> PyResult<()> {
+        match self.alive.count() {
+            0 => Ok(()),
+            count => Err(errors::views_alive(count)),
+        }
+    }
+
     /// The rows of particles in the order of their ids.
     fn rows(&self) -> Vec<usize> {
         self.stages.simulation().particles().rows_by_id()
@@ -50,12 +60,88 @@ impl Session {
         Ok(Self { stages, alive: Alive::default() })
     }
 
+    /// Goes on from a checkpoint.
+    #[staticmethod]
+    #[pyo3(signature = (path, threads = None))]
+    fn resume(py: Python<'_>, path: PathBuf, threads: Option<usize>) -> PyResult<Self> {
+        let mut stages = detached(py, || Stages::resume(&path))?.map_err(|error| errors::of_run(&error))?;
+        if threads.is_some() {
+            stages.set_threads(threads).map_err(|error| errors::of_run(&error))?;
+        }
+        Ok(Self { stages, alive: Alive::default() })
+    }
+
+    /// Writes a checkpoint.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let written = detached(py, || self.stages.checkpoint(&path, env!("CARGO_PKG_VERSION")))?;
+        written.map_err(|error| errors::of_run(&error))
+    }
+
+    /// Writes the present instant into a folder in a format of runs.
+    fn write_instant(
+        &mut self,
+        py: Python<'_>,
+        folder: PathBuf,
+        format: &str,
+        contacts: bool,
+    ) -> PyResult<()> {
+        let stages = &mut self.stages;
+        let written = detached(py, || stages.write_instant(&folder, format, contacts))?;
+        written.map_err(|error| errors::of_run(&error))
+    }
+
+    /// Draws the particles into a file.
+    fn write_picture(&self, py: Python<'_>, path: PathBuf, dots_per_inch: u32) -> PyResult<()> {
+        let written = detached(py, || self.stages.write_picture(&path, dots_per_inch))?;
+        written.map_err(|error| errors::of_run(&error))
+    }
+
+    /// Sets vectors of all particles by id; `applied_force` with none takes the forces away.
+    fn set_vectors(&mut self, name: &str, vectors: PyReadonlyArray2<'_, f64>) -> PyResult<bool> {
+        self.free()?;
+        edit::set_vectors(&mut self.stages, name, &vectors)
+    }
+
+    /// Sets a quantity of all particles by id.
+    #[pyo3(signature = (name, unit, values))]
+    fn set_column(
+        &mut self,
+        name: &str,
+        unit: Option<&str>,
+        values: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<()> {
+        self.free()?;
+        let values = values.as_array().to_vec();
+        self.stages.set_column(name, unit, values).map_err(errors::misuse)
+    }
+
+    /// Moves a wall in another way from now on.
+    fn set_wall_motion(
+        &mut self,
+        wall: usize,
+        motion: &str,
+        parameters: Vec<(String, edit::Value)>,
+    ) -> PyResult<()> {
+        self.free()?;
+        edit::set_wall_motion(&mut self.stages, wall, motion, parameters)
+    }
+
+    /// Takes a wall away or puts it back.
+    fn set_wall_present(&mut self, wall: usize, present: bool) -> PyResult<()> {
+        self.free()?;
+        self.stages.set_wall_present(wall, present).map_err(errors::misuse)
+    }
+
+    /// Bytes that columns, contacts and lists take.
+    #[getter]
+    fn memory_size(&self) -> usize {
+        self.stages.simulation().memory_size()
+    }
+
     /// Takes steps, with `one_stage` up to the end of the present stage at most. Answers with the number of steps taken and
     /// the stages that have ended. Ctrl-C ends it between two steps.
     fn advance(&mut self, py: Python<'_>, steps: u64, one_stage: bool) -> PyResult<(u64, Vec<Ended>)> {
-        if self.alive.count() > 0 {
-            return Err(errors::views_alive(self.alive.count()));
-        }
+        self.free()?;
         let (mut taken, mut all_ended) = (0, Vec::new());
         let mut chunks = Chunks::new();
         while taken < steps {
@@ -132,6 +218,9 @@ impl Session {
     fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (mut ids, mut centres): ([Vec<i64>; 2], [Vec<[f64; 3]>; 2]) = Default::default();
         let (mut force, mut normal_force, mut overlap) = (Vec::new(), Vec::new(), Vec::new());
+        let mut stored_energy = Vec::new();
+        // Contacts of other laws remember other things: what one does not know is NaN.
+        let mut memory: Vec<(&'static str, Vec<f64>)> = Vec::new();
         self.stages.simulation().for_each_contact(&mut |contact| {
             ids[0].push(i64::from(contact.first));
             ids[1].push(match contact.second {
@@ -143,6 +232,16 @@ impl Session {
             force.push(contact.force.to_array());
             normal_force.push(contact.normal_force);
             overlap.push(contact.overlap);
+            stored_energy.push(contact.stored_energy);
+            for (name, &value) in contact.layout.names().zip(contact.memory) {
+                let name = name.split(' ').next().unwrap_or(name);
+                let index = memory.iter().position(|(known, _)| *known == name).unwrap_or_else(|| {
+                    memory.push((name, Vec::new()));
+                    memory.len() - 1
+                });
+                memory[index].1.resize(overlap.len() - 1, f64::NAN);
+                memory[index].1.push(value);
+            }
         });
         let ([id1, id2], [centre1, centre2]) = (ids, centres);
         let columns = PyDict::new(py);
@@ -152,7 +251,13 @@ impl Session {
         columns.set_item("centre2", columns::vectors(py, centre2.into_iter())?)?;
         columns.set_item("force", columns::vectors(py, force.into_iter())?)?;
         columns.set_item("normal_force", PyArray1::from_vec(py, normal_force))?;
+        let count = overlap.len();
         columns.set_item("overlap", PyArray1::from_vec(py, overlap))?;
+        columns.set_item("stored_energy", PyArray1::from_vec(py, stored_energy))?;
+        for (name, mut values) in memory {
+            values.resize(count, f64::NAN);
+            columns.set_item(name, PyArray1::from_vec(py, values))?;
+        }
         Ok(columns)
     }
 

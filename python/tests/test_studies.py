@@ -67,3 +67,15 @@ def test_a_folder_of_another_study_is_left_alone(gas: dict[str, Any], tmp_path: 
         with pytest.raises(pulvis.InputError, match="nothing to study"):
             pulvis.study(gas, {"seed": []}, tmp_path / "new", executor=executor)
     assert json.loads((tmp_path / "study/study.json").read_text()) == before
+
+
+def test_a_cluster_of_dask_gives_the_values_of_this_process(gas: dict[str, Any], tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    over = {"seed": [1, 2], "contacts.glass-glass.normal.k": [1000, -5]}
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+        there = pulvis.study(gas, over, tmp_path / "there", executor=client.get_executor())
+    with ThreadPoolExecutor(2) as executor:
+        here = pulvis.study(gas, over, tmp_path / "here", executor=executor)
+    assert [case.values for case in there] == [case.values for case in here]
+    assert len(there.failed) == 2 and all("k: -5 N/m" in (case.error or "") for case in there.failed)

@@ -226,7 +226,7 @@ fn row(parameter: &Parameter) -> String {
     let Parameter { name, symbol, meaning, .. } = parameter;
     let allowed = match parameter.kind {
         Kind::Choice(_) => "see below".to_owned(),
-        Kind::Number { .. } => parameter.allowed(),
+        Kind::Number { .. } | Kind::Numbers { .. } => parameter.allowed(),
     };
     let cells =
         [&format!("`{name}`"), *symbol, &parameter.unit(), &allowed, &parameter.default_text(), *meaning]

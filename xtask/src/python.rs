@@ -7,7 +7,8 @@ use crate::Outcome;
 use crate::process::{cargo, root, run, target, works};
 
 /// What the tests need beside the package.
-const TOOLS: [&str; 6] = ["maturin>=1.8,<2", "numpy", "pandas", "matplotlib", "pytest", "mypy"];
+const TOOLS: [&str; 9] =
+    ["maturin>=1.8,<2", "numpy", "pandas", "matplotlib", "scipy", "pytest", "mypy", "nbclient", "ipykernel"];
 
 /// Lints, wheel, installation and tests.
 pub fn run_all() -> Outcome {
@@ -42,7 +43,7 @@ fn newest(folder: &Path) -> Outcome<PathBuf> {
 /// The Python of an environment that has the tools; without one, says so.
 fn environment(folder: &Path) -> Option<PathBuf> {
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let imports = "import maturin, numpy, pandas, matplotlib, pytest, mypy";
+    let imports = "import maturin, numpy, pandas, matplotlib, scipy, pytest, mypy, nbclient, ipykernel";
     let has_tools = || works(Command::new(&python).args(["-c", imports]));
     if has_tools() {
         return Some(python);

@@ -18,6 +18,8 @@ pub(crate) struct Columns<'a> {
     angular_velocity_predicted: Shared<'a, Packed4>,
     pub(crate) forces_and_torques: Shared<'a, ForceTorque>,
     mass: &'a [f64],
+    /// Forces that a program applies; empty where there are none.
+    applied: &'a [Packed4],
 }
 
 impl<'a> Columns<'a> {
@@ -31,6 +33,7 @@ impl<'a> Columns<'a> {
             angular_velocity_predicted: Shared::new(&mut particles.angular_velocity_predicted),
             forces_and_torques: Shared::new(&mut particles.forces_and_torques),
             mass: &particles.mass,
+            applied: &particles.applied,
         }
     }
 
@@ -74,6 +77,9 @@ pub(crate) struct Step {
 pub(crate) struct Kicked {
     /// Power that the drag takes [W].
     pub(crate) power: f64,
+    /// Work that applied forces have done in the kicks: half a step of each with the mid-step velocity, so that over a step
+    /// their mean times the displacement is exact [J].
+    pub(crate) applied_work: f64,
     /// The maximum speed of the drift [m/s]; infinite if any is NaN.
     pub(crate) fastest: f64,
 }
@@ -108,6 +114,7 @@ impl<const FINISH: bool, const BEGIN: bool> Kernel for HalfKicks<'_, FINISH, BEG
         } = self;
         let forces_and_torques = &mut forces_and_torques[..rows.len()];
         let mass = &columns.mass[rows.clone()];
+        let applied = columns.applied.get(rows.clone());
         // SAFETY: as `new` demands.
         let (position, velocity, angular_velocity, velocity_predicted, angular_velocity_predicted) = unsafe {
             (
@@ -131,6 +138,10 @@ impl<const FINISH: bool, const BEGIN: bool> Kernel for HalfKicks<'_, FINISH, BEG
             );
             if FINISH {
                 push = push.plus(gravity.times(R::Simd4::splat(mass[row])));
+                if let Some(applied) = applied {
+                    kicked.applied_work += half * applied[row].vector.dot(velocity[row].vector);
+                    push = push.plus(R::Simd4::load(&applied[row]));
+                }
                 if background.has_drag() {
                     let (velocity, angular_velocity) =
                         (velocity_predicted[row].vector, angular_velocity_predicted[row].vector);
@@ -172,6 +183,9 @@ impl<const FINISH: bool, const BEGIN: bool> Kernel for HalfKicks<'_, FINISH, BEG
                 after.store(&mut position[row]);
                 let mut drift = Packed4::default();
                 velocity_now.store(&mut drift);
+                if let Some(applied) = applied {
+                    kicked.applied_work += half * applied[row].vector.dot(drift.vector);
+                }
                 let speed = drift.vector.norm_squared();
                 // Not `>`, which would ignore a NaN.
                 let slower = speed <= kicked.fastest;

@@ -61,7 +61,8 @@ pub struct Ledger {
     pub work_servo: f64,
     /// Work done on the particles by the deformation of the periodic cell [J].
     pub work_cell: f64,
-    /// Change of the stored energy by switches of laws, walls or the time step [J].
+    /// Change of the stored energy by switches of laws, walls or the time step, and by what a program sets between steps; work of
+    /// forces that a program applies [J].
     pub switched: f64,
     /// Energy of inserted particles, with that stored in their contacts [J].
     pub inflow: f64,

@@ -59,6 +59,8 @@ pub struct Particles {
     pub(crate) velocity_predicted: Vec<Packed4>,
     /// Angular velocity [rad/s] and 1/radius [1/m].
     pub(crate) angular_velocity_predicted: Vec<Packed4>,
+    /// Forces that a program applies [N], which contacts and background come on top of; empty where there are none.
+    pub(crate) applied: Vec<Packed4>,
     /// Quantities that the engine does not use.
     pub(crate) columns: Vec<NamedColumn>,
     /// The id of the next particle: no id is used twice.
@@ -171,6 +173,9 @@ impl Particles {
             self.angular_velocity_predicted.push(turning);
         }
         self.forces_and_torques.resize(self.len(), ForceTorque::default());
+        if !self.applied.is_empty() {
+            self.applied.resize(self.len(), Packed4::default());
+        }
         first..self.next_id
     }
 
@@ -248,7 +253,17 @@ impl Particles {
 
     /// The rows in the order of their ids: what files and interfaces should iterate over.
     pub fn rows_by_id(&self) -> Vec<usize> {
-        let mut rows: Vec<usize> = (0..self.len()).collect();
+        let count = self.len();
+        // Few ids have been given up: each has a place of its own.
+        if (self.next_id as usize) < 4 * count {
+            let mut places = vec![usize::MAX; self.next_id as usize];
+            for (row, &id) in self.id.iter().enumerate() {
+                places[id as usize] = row;
+            }
+            places.retain(|&row| row != usize::MAX);
+            return places;
+        }
+        let mut rows: Vec<usize> = (0..count).collect();
         rows.sort_unstable_by_key(|&row| self.id[row]);
         rows
     }
@@ -290,6 +305,9 @@ impl Particles {
             &mut self.angular_velocity_predicted,
         ] {
             pool.reorder(column, order, &mut packed);
+        }
+        if !self.applied.is_empty() {
+            pool.reorder(&mut self.applied, order, &mut packed);
         }
     }
 

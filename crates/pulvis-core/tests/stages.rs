@@ -164,3 +164,81 @@ fn a_wall_that_is_away_stands_still_and_begins_its_motion_anew() {
     advance(&mut simulation, 100);
     assert_eq!(simulation.walls()[0].point, before);
 }
+
+#[test]
+fn forces_of_a_program_move_particles_as_a_field_of_that_strength_does() {
+    let ball = |x: f64| sphere(vector(x, 0.0, 1.5 * RADIUS), vector(0.0, 0.0, -0.2), RADIUS);
+    let bed = |strength: f64| {
+        let mut bed = setup(vec![ball(0.0), ball(2.5 * RADIUS)], viscous_luding());
+        (bed.walls, bed.background) = (vec![floor()], gravity(strength));
+        start(bed, 50.0)
+    };
+    let (mut fallen, mut pushed) = (bed(9.81), bed(0.0));
+    let weight = vector(0.0, 0.0, -9.81 * ball(0.0).mass);
+    pushed.set_applied_forces(&[weight, weight]).unwrap();
+    let set = pushed.ledger().switched;
+    for _ in 0..40 {
+        fallen.advance(25).unwrap();
+        pushed.advance(25).unwrap();
+        // A program may set them again in every step.
+        pushed.set_applied_forces(&[weight, weight]).unwrap();
+    }
+    assert!(fallen.ledger().dissipated_plastic > 0.0);
+    // Gravity is added to the same sums in the same place; setting adds round-off to the force of one half kick.
+    let apart = difference(fallen.domain(), &states(&fallen), &states(&pushed));
+    assert!(apart < 1e-9 * RADIUS, "{apart} m");
+    let (of_field, of_program) = (fallen.ledger(), pushed.ledger());
+    // What is left open is what contacts leave open, whichever way the weight comes.
+    let errors = [of_field, of_program].map(|ledger| ledger.relative_error());
+    assert!(errors[0].abs() < 1e-3 && (errors[0] - errors[1]).abs() < 1e-9, "{errors:?}");
+    // What the field takes from its potential is the work of the program, booked with what setting it changes.
+    let potential = of_field.gravity - 2.0 * 9.81 * ball(0.0).mass * 1.5 * RADIUS;
+    let work = of_program.switched - set;
+    assert!((potential + work).abs() < 1e-9 * of_field.scale, "{potential} J, {work} J");
+    let refused = pushed.set_applied_forces(&[weight]).unwrap_err().to_string();
+    assert!(refused.contains("1 vectors for 2 particles"), "{refused}");
+}
+
+#[test]
+fn what_a_program_sets_keeps_the_ledger_closed_and_the_memory_of_contacts() {
+    let mut powder = implosion(60, 10.0 * RADIUS, 9, viscous_luding());
+    powder.walls = cube_of_walls(40.0 * RADIUS);
+    let mut simulation = start(powder, 50.0);
+    simulation.advance(600).unwrap();
+    let by_id = |simulation: &Simulation, of: fn(&pulvis_core::Particles) -> pulvis_core::Vectors<'_>| {
+        let rows = simulation.particles().rows_by_id();
+        let vectors = of(simulation.particles());
+        rows.into_iter().map(|row| vectors[row]).collect::<Vec<_>>()
+    };
+    let remembered = |simulation: &Simulation| {
+        let mut sum = (0, 0.0);
+        simulation.for_each_contact(&mut |contact| sum = (sum.0 + 1, sum.1 + contact.memory[0]));
+        sum
+    };
+    let (contacts, memory) = remembered(&simulation);
+    assert!(contacts > 30 && memory > 0.0);
+    let closing = simulation.ledger().closing_error();
+    let shift = vector(0.3 * RADIUS, 0.0, 0.0);
+    let positions = by_id(&simulation, |particles| particles.positions());
+    let shifted: Vec<_> = positions.iter().map(|position| *position + shift).collect();
+    simulation.set_positions(&shifted).unwrap();
+    assert_eq!(by_id(&simulation, |particles| particles.positions()), shifted);
+    // Overlaps change by round-off, and with them what contacts remember.
+    let (same, kept) = remembered(&simulation);
+    assert!(same == contacts && (kept / memory - 1.0).abs() < 1e-9, "{kept} {memory}");
+    let before = simulation.ledger();
+    let velocities = by_id(&simulation, |particles| particles.velocities());
+    simulation
+        .set_velocities(&velocities.iter().map(|velocity| *velocity * 2.0).collect::<Vec<_>>())
+        .unwrap();
+    let still = vec![Vector3::zero(); velocities.len()];
+    simulation.set_angular_velocities(&still).unwrap();
+    let after = simulation.ledger();
+    let faster = after.kinetic_translation / before.kinetic_translation;
+    assert!((faster - 4.0).abs() < 1e-12 && after.kinetic_rotation == 0.0, "{faster}");
+    assert!((after.closing_error() - closing).abs() < 1e-12 * after.scale, "{after:?}");
+    simulation.advance(300).unwrap();
+    assert!(simulation.ledger().relative_error().abs() < 1e-3);
+    let refused = simulation.set_velocities(&[vector(f64::NAN, 0.0, 0.0); 60]).unwrap_err().to_string();
+    assert!(refused.contains("finite"), "{refused}");
+}

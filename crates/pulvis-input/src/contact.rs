@@ -49,6 +49,10 @@ impl fmt::Display for NamedLaw {
                 (Value::Number(number), unit) => {
                     write!(out, "{} = {} {unit}", parameter.name, six_digits(*number))?;
                 }
+                (Value::Numbers(numbers), unit) => {
+                    let last = six_digits(numbers.last().copied().unwrap_or(f64::NAN));
+                    write!(out, "{} = {} values up to {last} {unit}", parameter.name, numbers.len())?;
+                }
             }
             if let Some((_, mixing)) = self.mixed.iter().find(|(name, _)| *name == parameter.name) {
                 write!(out, " (of the materials by {})", mixing.name)?;

@@ -1,6 +1,7 @@
 //! The parameters of a law, read as its entry in the catalogue describes them.
 
 use crate::context::Reported;
+use crate::list::List;
 use crate::problem::Problem;
 use crate::quantity::QuantityRule;
 use crate::reader::TableReader;
@@ -41,6 +42,15 @@ fn read_parameter(table: &mut TableReader<'_>, parameter: &Parameter) -> Result<
                 table.optional(parameter.name, rule)
             };
             Ok(number?.map(Value::Number))
+        }
+        Kind::Numbers { dimension, range, length: (least, most) } => {
+            let shape = List::of(rule(dimension, range, false)).at_least(least).at_most(most);
+            let numbers = if required {
+                table.required(parameter.name, shape).map(Some)
+            } else {
+                table.optional(parameter.name, shape)
+            };
+            Ok(numbers?.map(Value::Numbers))
         }
         Kind::Choice(options) => {
             let names: Vec<&str> = options.iter().map(|option| option.name).collect();

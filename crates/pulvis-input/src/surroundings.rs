@@ -86,7 +86,7 @@ fn read_quantity(
 fn rule_of(quantity: &Parameter) -> QuantityRule {
     match quantity.kind {
         Kind::Number { dimension, range, may_be_infinite } => rule(dimension, range, may_be_infinite),
-        Kind::Choice(_) => QuantityRule::of(Dimension::NONE),
+        Kind::Choice(_) | Kind::Numbers { .. } => QuantityRule::of(Dimension::NONE),
     }
 }
 

@@ -46,6 +46,9 @@ fn check_texts(entry: &LawEntry) {
         assert!(!parameter.meaning.trim().is_empty(), "{law}.{name} has no meaning");
         assert!(!parameter.allowed().is_empty() && !parameter.unit().is_empty(), "{law}.{name}");
         match (parameter.kind, parameter.presence) {
+            (Kind::Numbers { .. }, Presence::Default(_) | Presence::DefaultChoice(_)) => {
+                panic!("{law}.{name}: a list has no default")
+            }
             (Kind::Number { .. }, Presence::DefaultChoice(_)) => panic!("{law}.{name}: default is no number"),
             (Kind::Choice(_), Presence::Default(_)) => panic!("{law}.{name}: default is no name"),
             (Kind::Number { .. }, Presence::Default(number)) => {
@@ -55,7 +58,9 @@ fn check_texts(entry: &LawEntry) {
                 );
                 assert!(!parameter.symbol.is_empty(), "{law}.{name} has no symbol");
             }
-            (Kind::Number { .. }, _) => assert!(!parameter.symbol.is_empty(), "{law}.{name} has no symbol"),
+            (Kind::Number { .. } | Kind::Numbers { .. }, _) => {
+                assert!(!parameter.symbol.is_empty(), "{law}.{name} has no symbol")
+            }
             (Kind::Choice(options), presence) => {
                 assert!(options.iter().all(|option| !option.meaning.is_empty()), "{law}.{name}");
                 if let Presence::DefaultChoice(default) = presence {
@@ -114,6 +119,19 @@ impl<L: std::fmt::Debug, F: Fn(&str, &Values) -> Option<Result<L, InvalidParamet
                     }
                     self.refuses(&self.values.clone().with_choice(name, "no-such-choice"), name);
                     self.refuses(&self.values.clone().with(name, 1.0), name);
+                }
+                Kind::Numbers { range, length: (least, most), .. } => {
+                    let one = self.values.numbers(name).ok().and_then(|list| list.last().copied());
+                    let of = |length: usize, value: f64| vec![value; length];
+                    for outside in outside(range, false) {
+                        self.refuses(&self.values.clone().with_numbers(name, &of(least, outside)), name);
+                    }
+                    for length in [least - 1, most + 1] {
+                        let list = of(length, one.unwrap_or(1.0));
+                        self.refuses(&self.values.clone().with_numbers(name, &list), name);
+                    }
+                    self.refuses(&self.values.clone().with(name, 1.0), name);
+                    self.refuses(&self.values.clone().with_choice(name, "1"), name);
                 }
                 Kind::Number { range, may_be_infinite, .. } => {
                     for outside in outside(range, may_be_infinite) {

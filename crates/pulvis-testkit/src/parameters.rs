@@ -35,6 +35,13 @@ fn value(parameter: &Parameter, item: &toml::Value) -> Value {
         }
         (Kind::Number { .. }, toml::Value::Float(number)) => bare(parameter, *number),
         (Kind::Number { .. }, toml::Value::Integer(number)) => bare(parameter, *number as f64),
+        (Kind::Numbers { .. }, toml::Value::Array(items)) => {
+            let number = |item: &toml::Value| {
+                let (number, unit) = item.as_str()?.split_once(' ')?;
+                (unit == parameter.unit()).then(|| number.parse::<f64>().ok())?
+            };
+            Value::Numbers(items.iter().map(|item| number(item).expect("a number and its unit")).collect())
+        }
         _ => panic!("{}: the example's value is of the wrong kind", parameter.name),
     }
 }
@@ -80,6 +87,7 @@ fn random_values(entry: &LawEntry, draw: &mut Draw) -> Values {
         }
         let chosen = match parameter.kind {
             Kind::Choice(options) => Value::Choice(draw.one_of(options).name.to_owned()),
+            Kind::Numbers { .. } => Value::Numbers(random_list(entry, parameter, (&around, &values), draw)),
             Kind::Number { range, may_be_infinite, .. } => {
                 let center = center(parameter, &around);
                 let alike = values_alike(entry, parameter, &values);
@@ -89,6 +97,30 @@ fn random_values(entry: &LawEntry, draw: &mut Draw) -> Values {
         values.set(parameter.name, chosen);
     }
     values
+}
+
+/// The list of the example in a unit of another size, in steps of other lengths. Lists of one dimension have one unit, so
+/// that they fit each other about as well as those of the example.
+fn random_list(
+    entry: &LawEntry,
+    parameter: &Parameter,
+    (around, drawn): (&Values, &Values),
+    draw: &mut Draw,
+) -> Vec<f64> {
+    let example = around.numbers(parameter.name).expect("the example has every list");
+    let alike = entry.parameters.iter().filter(|other| other.unit() == parameter.unit());
+    let mut sizes = alike.filter_map(|other| {
+        let (drawn, example) = (drawn.numbers(other.name).ok()?, around.numbers(other.name).ok()?);
+        Some(drawn.last()? / example.last()?)
+    });
+    let size = sizes.next().unwrap_or_else(|| draw.log_between(1.0 / 30.0, 30.0));
+    let mut last = example.first().copied().unwrap_or_default() * size;
+    let mut list = vec![last];
+    for two in example.windows(2) {
+        last += (two[1] - two[0]) * size * draw.log_between(0.7, 1.4);
+        list.push(last);
+    }
+    list
 }
 
 fn center(parameter: &Parameter, around: &Values) -> f64 {

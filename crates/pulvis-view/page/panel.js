@@ -101,6 +101,10 @@ export class Panel {
       const names = parameter.options.map((option) => [option.name, option.name, option.meaning]);
       return choice(parameter.name, names, value ?? parameter.default, change);
     }
+    if (parameter.list) {
+      const shown = value ? `${value.length} values up to ${Math.max(...value)} ${parameter.unit}, changed in the scenario file` : "not given";
+      return element("p", { class: "summary", title: parameter.meaning }, `${parameter.name}: ${shown}`);
+    }
     const slider = new Quantity({ ...parameter, shown: parameter.symbol || parameter.name, change }, value ?? parameter.default ?? 0);
     if (value === undefined || value === null) {
       slider.root.classList.add("unset");

@@ -19,6 +19,7 @@ export const MOTIONS = [
 
 /** A quantity in TOML. */
 function toml(value, unit) {
+  if (Array.isArray(value)) return `[${value.map((one) => toml(one, unit)).join(", ")}]`;
   if (typeof value === "string" && value !== "inf") return JSON.stringify(value);
   const plain = value === "inf" ? "inf" : String(value);
   return unit === "1" || unit === undefined ? plain : JSON.stringify(`${plain} ${unit}`);

@@ -1,7 +1,7 @@
 """Pulvis: a discrete element method engine for adhesive, elasto-plastic powders.
 
 Laws and pair contacts:
-    :func:`laws`, :func:`law`, :func:`contact`, :func:`probe`, :func:`collide`,
+    :func:`laws`, :func:`law`, :func:`tabulated`, :func:`contact`, :func:`probe`, :func:`collide`,
     :class:`PythonLaw`
 Many bodies:
     :class:`Simulation` (step by step), :func:`run`, :func:`resume` and :class:`Run` (with files), :func:`study` (many runs)
@@ -12,13 +12,17 @@ All quantities are in SI units. Where a number is expected, a text with a unit w
 from ._columns import Columns
 from ._native import __version__
 from .collision import Collisions, collide
+from .curves import tabulated
 from .errors import InputError, InternalError, PulvisError, RunError, ViewError
 from .laws import Contact, Law, LawEntry, Parameter, contact, law, laws
 from .probing import ProbeCurve, probe
 from .pythonlaw import PythonLaw
 from .runs import Run, resume, run
-from .simulation import Particles, Simulation, StageEnd, Wall
+from .particles import Particles
+from .scenarios import StageEnd
+from .simulation import Simulation
 from .studies import Case, Study, study
+from .walls import Wall
 
 __all__ = [
     "Case",
@@ -50,4 +54,5 @@ __all__ = [
     "resume",
     "run",
     "study",
+    "tabulated",
 ]

@@ -71,6 +71,16 @@ class Columns(Mapping[str, "NDArray[Any]"]):
                 flat[name] = column.ravel() if column.ndim else np.full(max(size, 1), column)
         return pandas.DataFrame(flat)
 
+    def to_structured(self) -> NDArray[Any]:
+        """The columns as one structured array of numpy, one element a row; vectors are fields of three numbers."""
+        rows = {name: column.reshape(-1) if not self._is_vector(column) else column for name, column in self.items()}
+        fields = [(name, column.dtype, column.shape[1:]) for name, column in rows.items()]
+        size = max((len(column) for column in rows.values()), default=0)
+        array = np.empty(size, dtype=fields)
+        for name, column in rows.items():
+            array[name] = column
+        return array
+
     def _is_vector(self, column: NDArray[Any]) -> bool:
         others = (other.ndim for other in self._columns.values())
         return column.ndim == 2 and column.shape[1] == 3 and min(others) == 1

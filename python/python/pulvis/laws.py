@@ -24,7 +24,7 @@ __all__ = ["Contact", "Law", "LawEntry", "Parameter", "contact", "law", "laws"]
 _UNNAMED = ("conventions", "expected")
 
 #: What a parameter may be: a number in SI, a text with its unit, a choice, or an array of numbers to be swept.
-ParameterValue = Union[float, str, ArrayLike]
+ParameterValue = Union[float, str, ArrayLike, tuple[Any, ...]]
 
 
 @dataclass(frozen=True)
@@ -39,6 +39,7 @@ class Parameter:
     meaning: str
     required: bool
     choices: tuple[tuple[str, str], ...] | None
+    is_list: bool
 
 
 class LawEntry:
@@ -198,8 +199,11 @@ class Law:
 
     def __init__(self, entry: LawEntry, parameters: Mapping[str, ParameterValue]) -> None:
         self.entry = entry
+        lists = {parameter.name for parameter in entry.parameters if parameter.is_list}
         self.parameters: dict[str, ParameterValue] = {
-            name: value for name, value in parameters.items() if value is not None
+            name: _items(name, value) if name in lists else value
+            for name, value in parameters.items()
+            if value is not None
         }
         single = {name: _first(value) for name, value in self.parameters.items()}
         _native.check_law(entry.role, entry.name, _toml.dumps(single))
@@ -236,13 +240,25 @@ class Law:
         return Contact([self]).collide(**arguments)
 
     def __repr__(self) -> str:
-        given = "".join(f", {name}={value!r}" for name, value in self.parameters.items())
+        def shown(value: Any) -> str:
+            return f"<{len(value)} values>" if isinstance(value, tuple) and len(value) > 4 else repr(value)
+
+        given = "".join(f", {name}={shown(value)}" for name, value in self.parameters.items())
         return f"law({self.name!r}{given})"
 
 
+def _items(name: str, value: Any) -> tuple[Any, ...]:
+    """The items of a parameter that is a list: a tuple, which is not swept over."""
+    try:
+        return tuple(item if isinstance(item, str) else float(item) for item in value)
+    except (TypeError, ValueError):
+        text = f"{name}: found {value!r}, expected a list of numbers in SI units or texts with units"
+        raise InputError(text, key=name) from None
+
+
 def _first(value: ParameterValue) -> Any:
-    """The first element of an array."""
-    if isinstance(value, str) or np.ndim(value) == 0:
+    """The first element of an array; a tuple is a list that belongs together."""
+    if isinstance(value, (str, tuple)) or np.ndim(value) == 0:
         return value
     array = np.asarray(value)
     if array.size == 0:

@@ -13,7 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._columns import Columns
 from .collision import Collisions
+from .curves import tabulated
 from .errors import InputError, RunError
+from .laws import Law
 from .probing import ProbeCurve
 
 __all__ = ["PythonLaw"]
@@ -97,6 +99,49 @@ class PythonLaw:
         force = np.array([self._ask(d, v, memory) for d, v in zip(path.tolist(), rates.tolist())])
         work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(path)))
         return ProbeCurve({"overlap": path, "force": force, "work": work})
+
+    def to_tabulated(self, overlap_max: float, points: int = 100) -> Law:
+        """The law ``tabulated`` with the curves of this function, which runs at full speed in beds.
+
+        The contact is pressed to `overlap_max` and unloaded, infinitely slowly. Only what these two curves say is kept: it is
+        a good copy of a law without rate and attraction whose unloading curve depends on the load as that of
+        :func:`pulvis.tabulated` does. Compare the two by :meth:`probe` before you trust it.
+
+        Parameters
+        ----------
+        overlap_max : m
+            How deep the contacts will be pressed.
+        points : int
+            Points of each curve, 100 at the most.
+
+        Returns
+        -------
+        Law
+
+        Raises
+        ------
+        InputError
+            The function pulls, does not grow while it is loaded, or unloads more softly than it loads.
+        """
+        if not (math.isfinite(overlap_max) and overlap_max > 0):
+            raise InputError(f"overlap_max: {overlap_max} is out of range; expected a number greater than 0")
+        curve = self.probe(overlap=[0.0, overlap_max, 0.0], points=max(points - 1, 1))
+        turn = int(np.argmax(curve.overlap))
+        load, unload = slice(0, turn + 1), slice(len(curve.overlap) - 1, turn - 1, -1)
+        overlap, force = curve.overlap[unload], curve.force[unload]
+        if np.any(force < 0):
+            raise InputError("the function pulls; a tabulated law only pushes, attractions have a role of their own")
+        # The residual overlap lies between the last point without a force and the first one with one.
+        pressed = np.flatnonzero(force > 0)
+        if len(pressed) < 2:
+            raise InputError("the function gives no force while it is unloaded")
+        first, second = pressed[:2]
+        slope = (force[second] - force[first]) / (overlap[second] - overlap[first])
+        residual = max(overlap[first] - force[first] / slope, 0.0) if slope > 0 else 0.0
+        if first > 0:
+            residual = max(residual, float(overlap[first - 1]))
+        overlap, force = np.append(residual, overlap[first:]), np.append(0.0, force[first:])
+        return tabulated(curve.overlap[load], curve.force[load], overlap, force)
 
     def collide(
         self,

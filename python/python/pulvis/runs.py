@@ -12,7 +12,7 @@ import numpy as np
 from . import _native
 from ._columns import Columns
 from .errors import InputError, checked_threads
-from .simulation import Scenario, Settings, StageEnd, source_of
+from .scenarios import Scenario, Settings, StageEnd, source_of
 
 __all__ = ["Run", "resume", "run"]
 

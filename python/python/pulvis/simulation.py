@@ -4,132 +4,29 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from . import _native, _toml
+from . import _native
 from ._columns import Columns
 from .errors import InputError, checked_threads
+from .particles import Particles
+from .scenarios import Scenario, Settings, StageEnd, built, source_of
+from .walls import Wall
 
 if TYPE_CHECKING:
-    import pandas
+    from matplotlib.axes import Axes
 
-__all__ = ["Particles", "Simulation", "StageEnd", "Wall"]
+__all__ = ["Simulation"]
 
-#: A file, or a scenario as a dictionary whose numbers are in SI.
-Scenario = Union[str, "os.PathLike[str]", Mapping[str, Any]]
-
-#: Values that replace those of the scenario, by their dotted keys.
-Settings = Mapping[str, Any]
+#: Forces on the particles [N] in the order of the ids, none, or a function of the simulation that gives them.
+Forces = Union[ArrayLike, None, "Callable[[Simulation], ArrayLike]"]
 
 #: More steps than any stage has.
 _ALL = 2**62
-
-
-def source_of(scenario: Scenario) -> Any:
-    """What the compiled part takes for a scenario."""
-    if isinstance(scenario, Mapping):
-        return ("<dict>", _toml.dumps(scenario), True)
-    return os.fspath(scenario)
-
-
-@dataclass(frozen=True)
-class StageEnd:
-    """A stage that has ended: its name, why, the time [s] and the number of steps."""
-
-    name: str
-    ending: str
-    time: float
-    steps: int
-
-
-@dataclass(frozen=True)
-class Wall:
-    """A wall as it is now; of a wall that is no plane, `normal` is ``None``."""
-
-    name: str
-    present: bool
-    motion: str
-    point: NDArray[np.float64]
-    normal: NDArray[np.float64] | None
-    velocity: NDArray[np.float64]
-    force: NDArray[np.float64]
-    torque: float
-    area: float | None
-
-
-class Particles:
-    """The particles of a simulation.
-
-    Attributes are *copies* in the order of the ids, which never changes: ``id``, ``material`` (an index), ``radius`` [m],
-    ``mass`` [kg], ``position`` [m], ``velocity`` [m/s], ``angular_velocity`` [rad/s], ``force`` [N], ``torque`` [N m], and
-    further columns of the scenario. :meth:`view` looks at the engine's own columns without a copy.
-    """
-
-    def __init__(self, session: _native.Session) -> None:
-        self._session = session
-
-    def __len__(self) -> int:
-        return self._session.particle_count
-
-    @property
-    def names(self) -> list[str]:
-        """The names of all columns."""
-        return self._session.column_names()
-
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        column = self._session.column(name)
-        if column is None:
-            raise KeyError(f"no column `{name}`; there are {', '.join(self.names)}")
-        return column
-
-    def __getattr__(self, name: str) -> NDArray[Any]:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        try:
-            return self[name]
-        except KeyError as error:
-            raise AttributeError(error.args[0]) from None
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self.names]
-
-    def view(self, name: str) -> NDArray[np.float64]:
-        """The engine's own column, without a copy and read-only, in the order of its rows.
-
-        Rows change when the neighbour search sorts them: :attr:`row_ids` says which particle stands in which. As long as
-        the array, or any array that was cut from it, is alive, :meth:`Simulation.advance` refuses to go on with a
-        :class:`pulvis.ViewError`, so that a view never shows freed or moving memory.
-
-        Parameters
-        ----------
-        name : str
-            A column of numbers or vectors.
-        """
-        view = self._session.view(name)
-        if view is None:
-            raise KeyError(f"no column `{name}` that can be viewed; there are {', '.join(self.names[2:])}")
-        return view
-
-    @property
-    def row_ids(self) -> NDArray[np.uint32]:
-        """The ids in the order of the rows of views."""
-        return self._session.row_ids()
-
-    def to_columns(self) -> Columns:
-        """Copies of all columns."""
-        return Columns({name: self[name] for name in self.names})
-
-    def to_dataframe(self) -> pandas.DataFrame:
-        """All columns as a table of pandas."""
-        return self.to_columns().to_dataframe()
-
-    def __repr__(self) -> str:
-        return f"{len(self)} particles: {', '.join(self.names)}"
 
 
 class Simulation:
@@ -140,12 +37,16 @@ class Simulation:
 
     Parameters
     ----------
-    scenario : path or dict
+    scenario : path or dict, optional
         A scenario file, or a dictionary of the same structure whose bare numbers are in SI units.
     set : dict, optional
         Values that replace those of the scenario, by their dotted keys, as ``--set`` does it.
     threads : int, optional
         As many as there are processors and work for them, if it is left out.
+    **tables
+        Tables of a scenario one by one, in the place of `scenario` or beside a dictionary: ``materials=``, ``contacts=``
+        (whose values may be laws and contacts), ``particles=``, ``walls=``, ``gravity=``, and so on. Without ``stages``
+        there is one, which goes on for as long as steps are taken.
 
     Raises
     ------
@@ -173,8 +74,15 @@ class Simulation:
     """
 
     def __init__(
-        self, scenario: Scenario, *, set: Settings | None = None, threads: int | None = None
+        self,
+        scenario: Scenario | None = None,
+        *,
+        set: Settings | None = None,
+        threads: int | None = None,
+        **tables: Any,
     ) -> None:
+        if scenario is None or tables:
+            scenario = built(scenario, tables)
         self._start(source_of(scenario), set, threads)
 
     @classmethod
@@ -193,12 +101,26 @@ class Simulation:
         simulation._start((name, text, False), set, threads)
         return simulation
 
+    @classmethod
+    def resume(cls, path: str | os.PathLike[str], *, threads: int | None = None) -> Simulation:
+        """Goes on from a checkpoint of :meth:`save`, or of a run: a file, or the folder of the run, which is not changed.
+
+        Callbacks, recorded rows, and what the program has set of forces and walls are not part of it.
+        """
+        simulation = cls.__new__(cls)
+        simulation._take(_native.Session.resume(os.fspath(path), checked_threads(threads)))
+        return simulation
+
     def _start(self, source: Any, set: Settings | None, threads: int | None) -> None:
-        self._session = _native.Session(source, list((set or {}).items()), checked_threads(threads))
+        self._take(_native.Session(source, list((set or {}).items()), checked_threads(threads)))
+
+    def _take(self, session: _native.Session) -> None:
+        self._session = session
         self._callbacks: list[tuple[int, Callable[[Simulation], object]]] = []
         self._rows: list[NDArray[np.float64]] = []
+        self._forces: Callable[[Simulation], ArrayLike] | None = None
         for text in self._session.warnings:
-            warnings.warn(text, stacklevel=3)
+            warnings.warn(text, stacklevel=4)
 
     # Time and stages
 
@@ -267,6 +189,8 @@ class Simulation:
         """
         if steps < 0:
             raise InputError(f"{steps} steps cannot be taken", key="steps")
+        if not self._callbacks and self._forces is None:
+            return self._session.advance(steps, False)[0]
         return self._advance(steps, one_stage=False)[0]
 
     def run(self, until: str | None = None) -> list[StageEnd]:
@@ -294,6 +218,9 @@ class Simulation:
         taken, ended = 0, []
         while taken < steps and not self.is_over:
             chunk = steps - taken
+            if self._forces is not None:
+                self._apply(self._forces(self))
+                chunk = 1
             for every, _ in self._callbacks:
                 chunk = min(chunk, every - self.steps % every)
             done, ends = self._session.advance(chunk, one_stage)
@@ -316,6 +243,47 @@ class Simulation:
             raise InputError(f"every {steps} steps is never", key="steps")
         self._callbacks.append((steps, function))
 
+    def apply(self, forces: Forces) -> None:
+        """Applies forces to the particles, on top of contacts and gravity, in all steps from now on.
+
+        Parameters
+        ----------
+        forces : array, callable or None
+            Vectors [N], one for each particle in the order of the ids, which stay as they are until others are applied; a
+            function of the simulation that is asked before every step; or ``None`` to apply none any more.
+
+        Notes
+        -----
+        The work of the forces is booked in the ledger as ``switched``. A function is asked before each step and gives the
+        force that holds in it; one of positions thus lags behind by half a step. Steps are then taken one by one, which costs
+        some microseconds each beside what the function does. Particles that inlets bring in later have no force of an array.
+
+        Examples
+        --------
+        >>> def drag(simulation):  # of a fluid that flows along x
+        ...     return 1e-6 * (np.array([0.1, 0, 0]) - simulation.particles.velocity)
+        >>> simulation.apply(drag)  # doctest: +SKIP
+        """
+        if forces is None or not callable(forces):
+            self._forces = None
+            self._apply(forces)
+        else:
+            self._forces = forces
+
+    def _apply(self, forces: ArrayLike | None) -> None:
+        count = len(self.particles)
+        if forces is None:
+            self._session.set_vectors("applied_force", np.empty((0, 3)))
+            return
+        try:
+            array = np.ascontiguousarray(forces, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise InputError("forces: expected an array of numbers [N]", key="forces") from None
+        if array.shape != (count, 3):
+            text = f"forces: found an array of shape {array.shape}, expected {(count, 3)}"
+            raise InputError(text, key="forces")
+        self._session.set_vectors("applied_force", array)
+
     # State
 
     @property
@@ -330,13 +298,16 @@ class Simulation:
 
     def contacts(self) -> Columns:
         """All contacts that act: ``id1``, ``id2`` (of a wall -1 minus its index), ``centre1``, ``centre2`` [m], ``force`` on
-        the first body [N], ``normal_force`` [N] and ``overlap`` [m]. Forces are computed from the state, as for files."""
+        the first body [N], ``normal_force`` [N], ``overlap`` [m], ``stored_energy`` [J], and what the laws remember, by its
+        name in the catalogue (NaN where a contact has none). Forces are computed from the state, as for files.
+        ``contacts().to_structured()`` gives one structured array."""
         return Columns(self._session.contacts())
 
     @property
     def walls(self) -> dict[str, Wall]:
-        """The walls by their names, as they are now."""
-        return {wall["name"]: Wall(**wall) for wall in self._session.walls()}
+        """The walls by their names: ``simulation.walls["lid"].velocity = (0, 0, -0.01)``."""
+        names = [str(wall["name"]) for wall in self._session.walls()]
+        return {name: Wall(self._session, index, name) for index, name in enumerate(names)}
 
     @property
     def ledger(self) -> dict[str, float]:
@@ -359,6 +330,59 @@ class Simulation:
         names = self._session.row_names()
         rows = np.array(self._rows) if self._rows else np.empty((0, len(names)))
         return Columns(dict(zip(names, rows.T)))
+
+    def plot(self, *names: str, x: str = "time", ax: Axes | None = None) -> Axes:
+        """Draws columns of the rows that were recorded with matplotlib.
+
+        Parameters
+        ----------
+        *names : str
+            Names of columns; ``kinetic`` if none is given.
+        x : str
+        ax : matplotlib Axes, optional
+            Where to draw; a new figure if it is left out.
+        """
+        import matplotlib.pyplot as plt
+
+        axes: Axes = plt.gca() if ax is None else ax
+        series = self.timeseries
+        for name in names or ("kinetic",):
+            axes.plot(series[x], series[name], label=name)
+        axes.set_xlabel(x)
+        axes.legend()
+        return axes
+
+    # Files
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes everything that the simulation is into a checkpoint, for :meth:`resume` and for ``start_from`` of scenarios.
+        The steps after it have the same bits as without the interruption.
+
+        Raises
+        ------
+        RunError
+            No step was taken yet; forces are applied or walls led by the program, which no checkpoint holds; or the file
+            cannot be written.
+        """
+        self._session.save(os.fspath(path))
+
+    def write(self, folder: str | os.PathLike[str], format: str = "vtk", *, contacts: bool = True) -> None:
+        """Writes the present instant into a folder, as ``[[output.files]]`` of runs does it.
+
+        Parameters
+        ----------
+        folder : path
+            Is made if it does not exist. Later calls go on with the same files, or write those of the next number.
+        format : str
+            ``vtk``, ``lammps-dump``, ``xyz``, ``npz`` or ``csv``.
+        contacts : bool
+            Whether contacts are written.
+        """
+        self._session.write_instant(os.fspath(folder), format, contacts)
+
+    def picture(self, path: str | os.PathLike[str], *, dpi: int = 144) -> None:
+        """Draws the particles into a PNG file, as runs do it at their end."""
+        self._session.write_picture(os.fspath(path), dpi)
 
     def to_toml(self) -> str:
         """The scenario with all defaults filled in and in SI units, as ``run.toml`` of a run holds it."""

@@ -5,10 +5,8 @@ from __future__ import annotations
 import hashlib
 import itertools
 import json
-import multiprocessing
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
@@ -16,9 +14,11 @@ from typing import TYPE_CHECKING, Any, Union
 from . import _toml
 from .errors import InputError
 from .runs import Run, resume, run
-from .simulation import Scenario
+from .scenarios import Scenario
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     import pandas
 
 __all__ = ["Case", "Study", "study"]
@@ -125,6 +125,10 @@ def study(
     if executor is not None:
         _complete(executor, tasks)
     elif tasks:
+        # Imported where they are needed: they take as long as all of the package.
+        import multiprocessing
+        from concurrent.futures import ProcessPoolExecutor
+
         # Threads of this process would not be those of a copy of it.
         context = multiprocessing.get_context("spawn")
         most = min(processes or os.cpu_count() or 1, len(tasks))
@@ -170,6 +174,8 @@ def _write(file: Path, record: Any) -> None:
 
 
 def _complete(executor: Executor, tasks: list[tuple[Any, ...]]) -> None:
+    from concurrent.futures import as_completed
+
     futures = [executor.submit(_case, *task) for task in tasks]
     try:
         for future in as_completed(futures):

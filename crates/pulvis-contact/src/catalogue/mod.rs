@@ -134,6 +134,15 @@ pub enum Kind {
     },
     /// One name of several.
     Choice(&'static [Choice]),
+    /// A list of quantities.
+    Numbers {
+        /// The dimension of each.
+        dimension: Dimension,
+        /// The numbers allowed, in SI units.
+        range: Range,
+        /// The least and the largest length.
+        length: (usize, usize),
+    },
 }
 
 /// Whether a parameter must be given, and what holds where it is not.
@@ -191,6 +200,19 @@ impl Parameter {
         Self { name, symbol, kind: Kind::Choice(options), presence, meaning, mixing: None }
     }
 
+    /// A list of quantities that must be given, of a least and a largest length.
+    pub const fn numbers(
+        name: &'static str,
+        symbol: &'static str,
+        dimension: Dimension,
+        range: Range,
+        length: (usize, usize),
+        meaning: &'static str,
+    ) -> Self {
+        let kind = Kind::Numbers { dimension, range, length };
+        Self { name, symbol, kind, presence: Presence::Required, meaning, mixing: None }
+    }
+
     /// The same parameter with a number [SI] that holds where none is given.
     pub const fn or(self, default: f64) -> Self {
         Self { presence: Presence::Default(default), ..self }
@@ -210,7 +232,7 @@ impl Parameter {
     pub const fn or_infinite(self) -> Self {
         let kind = match self.kind {
             Kind::Number { dimension, range, .. } => Kind::Number { dimension, range, may_be_infinite: true },
-            kind @ Kind::Choice(_) => kind,
+            kind @ (Kind::Choice(_) | Kind::Numbers { .. }) => kind,
         };
         Self { kind, ..self }
     }
@@ -218,7 +240,7 @@ impl Parameter {
     /// The unit of a quantity, `choice` for a choice.
     pub fn unit(&self) -> String {
         match self.kind {
-            Kind::Number { dimension, .. } => dimension.unit(),
+            Kind::Number { dimension, .. } | Kind::Numbers { dimension, .. } => dimension.unit(),
             Kind::Choice(_) => "choice".to_owned(),
         }
     }
@@ -228,6 +250,9 @@ impl Parameter {
         match self.kind {
             Kind::Number { range, may_be_infinite: true, .. } => format!("{range}, or inf"),
             Kind::Number { range, .. } => range.to_string(),
+            Kind::Numbers { range, length: (least, most), .. } => {
+                format!("list of {least} to {most}, each {range}")
+            }
             Kind::Choice(options) => {
                 let names: Vec<_> = options.iter().map(|option| format!("\"{}\"", option.name)).collect();
                 names.join(" | ")
@@ -322,6 +347,10 @@ impl Parameter {
             (Kind::Number { range, may_be_infinite, .. }, Value::Number(number)) => {
                 range.holds(*number) && (number.is_finite() || may_be_infinite)
             }
+            (Kind::Numbers { range, length: (least, most), .. }, Value::Numbers(numbers)) => {
+                (least..=most).contains(&numbers.len())
+                    && numbers.iter().all(|number| range.holds(*number) && number.is_finite())
+            }
             (Kind::Choice(options), Value::Choice(name)) => options.iter().any(|option| option.name == name),
             _ => false,
         };
@@ -331,6 +360,7 @@ impl Parameter {
         let found = match value {
             Value::Number(number) => format!("{number} {}", self.unit()),
             Value::Choice(name) => format!("\"{name}\""),
+            Value::Numbers(numbers) => format!("{numbers:?} {}", self.unit()),
         };
         Err(InvalidParameter::OutOfRange { name: self.name, found, expected: self.allowed() })
     }

@@ -9,6 +9,8 @@ pub enum Value {
     Number(f64),
     /// A name.
     Choice(String),
+    /// A list of quantities in SI units.
+    Numbers(Vec<f64>),
 }
 
 /// Parameter values by name.
@@ -41,6 +43,12 @@ impl Values {
         self
     }
 
+    /// The same values and a list of numbers [SI].
+    pub fn with_numbers(mut self, name: &str, numbers: &[f64]) -> Self {
+        self.set(name, Value::Numbers(numbers.to_vec()));
+        self
+    }
+
     /// The value of `name`.
     pub fn get(&self, name: &str) -> Option<&Value> {
         self.0.iter().find(|(known, _)| known == name).map(|(_, value)| value)
@@ -57,6 +65,14 @@ impl Values {
     /// The number [SI] of `name`.
     pub fn number(&self, name: &'static str) -> Result<f64, InvalidParameter> {
         self.optional_number(name).ok_or(InvalidParameter::Missing { name })
+    }
+
+    /// The list of numbers [SI] of `name`.
+    pub fn numbers(&self, name: &'static str) -> Result<&[f64], InvalidParameter> {
+        match self.get(name) {
+            Some(Value::Numbers(numbers)) => Ok(numbers),
+            _ => Err(InvalidParameter::Missing { name }),
+        }
     }
 
     /// The choice made for `name`.

@@ -31,6 +31,7 @@ mod response;
 mod sinter_luding;
 mod sinter_overlap;
 mod sintering;
+mod tabulated;
 mod thornton_ning;
 mod tomas;
 mod viscoelastic_jkr;
@@ -55,6 +56,7 @@ pub use rathbone::{Rathbone, RathboneMemory};
 pub use response::NormalResponse;
 pub use sinter_luding::{SinterLuding, SinterLudingMemory};
 pub use sinter_overlap::SinterOverlap;
+pub use tabulated::Tabulated;
 pub use thornton_ning::{ThorntonNing, ThorntonNingMemory};
 pub use tomas::{Tomas, TomasMemory};
 pub use viscoelastic_jkr::{ViscoelasticJkr, ViscoelasticJkrMemory};
@@ -318,5 +320,5 @@ macro_rules! normal_laws {
 normal_laws![
     common: Hertz, Linear, Luding;
     others:
-        CoreShell, Dahneke, Dmt, Eepa, Jkr, Kempton, LeeRadok, Molerus, Pasha, Rathbone, SinterLuding, SinterOverlap, ThorntonNing, Tomas, ViscoelasticJkr, WaltonBraun, WaltonBraunVariable, WaltonJohnson
+        CoreShell, Dahneke, Dmt, Eepa, Jkr, Kempton, LeeRadok, Molerus, Pasha, Rathbone, SinterLuding, SinterOverlap, Tabulated, ThorntonNing, Tomas, ViscoelasticJkr, WaltonBraun, WaltonBraunVariable, WaltonJohnson
 ];

@@ -5,6 +5,7 @@ mod cell;
 mod checks;
 mod columns;
 mod diagnosis;
+mod edit;
 mod errors;
 mod groups;
 mod insertion;

@@ -112,6 +112,7 @@ impl Simulation {
             outcome.drift_on(step.time_step);
             clock.lap(&mut outcome.seconds);
         });
+        self.book_applied_work();
     }
 
     fn step_of_rows(&self, time_step: f64) -> Step {
@@ -253,6 +254,7 @@ impl Simulation {
         self.particles.columns = quantities;
         self.on_particles.fill(WallForce::default());
         self.contacts.add_wall_forces(&mut self.on_particles);
+        self.book_applied_work();
         self.outcomes.iter().map(|outcome| outcome.kicked.power).sum()
     }
 

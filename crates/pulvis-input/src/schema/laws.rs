@@ -1,7 +1,7 @@
 //! The laws of a contact, from the catalogue.
 
 use super::selected::{Case, selected};
-use super::shapes::{choice, number, quantity, table_of, text};
+use super::shapes::{between, choice, number, quantity, table_of, text};
 use crate::contact::entries;
 use pulvis_contact::catalogue::{Kind, LawEntry, Parameter, Presence, Role};
 use pulvis_math::Dimension;
@@ -66,7 +66,7 @@ fn case(entry: &'static LawEntry) -> Case<'static> {
 fn described(parameter: &Parameter) -> String {
     let Parameter { symbol, meaning, .. } = parameter;
     let mut text = if symbol.is_empty() { (*meaning).to_owned() } else { format!("{symbol}: {meaning}") };
-    if let Kind::Number { .. } = parameter.kind {
+    if let Kind::Number { .. } | Kind::Numbers { .. } = parameter.kind {
         text += &format!(" [{}], {}", parameter.unit(), parameter.allowed());
     }
     if let Kind::Choice(options) = parameter.kind {
@@ -82,6 +82,7 @@ fn shape(parameter: &Parameter) -> Value {
     match parameter.kind {
         Kind::Number { dimension, .. } if dimension == Dimension::NONE => number(),
         Kind::Number { .. } => quantity(),
+        Kind::Numbers { length: (least, most), .. } => between(least, most, quantity()),
         Kind::Choice(options) => choice(options.iter().map(|option| option.name)),
     }
 }

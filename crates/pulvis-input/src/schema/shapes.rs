@@ -39,7 +39,12 @@ pub(super) fn list(item: Value) -> Value {
 
 /// As many items.
 pub(super) fn exactly(count: usize, item: Value) -> Value {
-    json!({ "type": "array", "items": item, "minItems": count, "maxItems": count })
+    between(count, count, item)
+}
+
+/// So many items.
+pub(super) fn between(least: usize, most: usize, item: Value) -> Value {
+    json!({ "type": "array", "items": item, "minItems": least, "maxItems": most })
 }
 
 /// Three quantities.

@@ -51,8 +51,6 @@ struct Instant {
 
 /// A collision under way.
 struct Run<'p> {
-    /// What the contact remembers; zeros while it is none.
-    columns: Vec<f64>,
     problem: &'p Problem<'p>,
     observation: &'p Observation,
     simulation: Simulation,
@@ -88,7 +86,6 @@ impl<'p> Run<'p> {
         let mut simulation = Simulation::with_columns(setup, columns)?;
         simulation.set_temperature(surroundings.temperature.clone());
         let mut run = Self {
-            columns: vec![0.0; problem.contact.memory_layout().columns()],
             problem,
             observation,
             momenta: Momenta::of(simulation.particles()),
@@ -104,7 +101,7 @@ impl<'p> Run<'p> {
             course: Vec::new(),
             over: false,
         };
-        run.take_in();
+        run.now = run.look();
         run.record();
         Ok(run)
     }
@@ -117,31 +114,29 @@ impl<'p> Run<'p> {
         }
         self.simulation.step()?;
         self.before = self.now;
-        self.take_in();
+        self.now = self.look();
         self.record();
         self.judge();
         Ok(())
     }
 
-    /// Takes in the state of the simulation, and what the contact remembers.
-    fn take_in(&mut self) {
-        self.now = self.look();
-        let mut columns = std::mem::take(&mut self.columns);
-        columns.fill(0.0);
+    /// What the contact remembers; zeros while it is none. Few steps ask.
+    fn remembered(&self) -> Vec<f64> {
+        let mut columns = vec![0.0; self.problem.contact.memory_layout().columns()];
         self.simulation.for_each_contact(&mut |contact| columns.copy_from_slice(contact.memory));
-        self.columns = columns;
+        columns
     }
 
     /// Reads the state off the simulation.
     fn look(&self) -> Instant {
         let particles = self.simulation.particles();
-        let rows = particles.rows_by_id();
         let (position, velocity, forces) =
             (particles.positions(), particles.velocities(), particles.forces());
-        let i = rows[0];
+        // Of two particles, the first one is the one with the lower id.
+        let i = usize::from(particles.ids().first() != Some(&0));
         let (overlap, rate, force) = match self.problem.bodies {
             Bodies::Pair([first, second]) => {
-                let j = rows[1];
+                let j = 1 - i;
                 let (between, against) = (position[i] - position[j], velocity[j] - velocity[i]);
                 let sum = first.radius + second.radius;
                 // The same bits as along the line of centres alone where nothing moves across it.
@@ -238,7 +233,7 @@ impl<'p> Run<'p> {
     /// The branch on which the bodies are, or that of the attraction where they are apart.
     fn branch(&self, overlap: f64) -> &'static str {
         let Problem { contact, pair, bodies, .. } = self.problem;
-        ruling_branch(contact, pair, bodies.radii(), overlap, &self.columns)
+        ruling_branch(contact, pair, bodies.radii(), overlap, &self.remembered())
     }
 
     fn finish(mut self) -> Collision {
@@ -272,15 +267,16 @@ impl<'p> Run<'p> {
             .map(|_| RelativeMotion::now(&self.simulation).sample(self.problem.bodies, tangential_force));
         let all = oblique.is_some();
         let (normal, pair) = (&self.problem.contact.normal, &self.problem.pair);
-        let branch = normal.branch(pair, overlap, &self.columns).0;
+        let columns = self.remembered();
+        let branch = normal.branch(pair, overlap, &columns).0;
         let elastic = ledger.elastic_normal + ledger.elastic_bond;
-        let potential = normal.branch_potential(branch, &NormalMotion::at_rest(pair, overlap), &self.columns);
+        let potential = normal.branch_potential(branch, &NormalMotion::at_rest(pair, overlap), &columns);
         Sample {
             time,
             overlap,
             velocity,
             force,
-            delta_max: normal.remembered_overlap(&self.columns).unwrap_or(self.overlap_max),
+            delta_max: normal.remembered_overlap(&columns).unwrap_or(self.overlap_max),
             kinetic: if all { ledger.kinetic() } else { self.problem.kinetic(velocity) },
             potential_available: if all { ledger.elastic() } else { elastic },
             potential_plastic: potential.unwrap_or(elastic),

@@ -69,7 +69,7 @@ fn bodies(entry: &LawEntry) -> String {
                 (0.01 * path::RADIUS, *range == Range::Any)
             }
             Kind::Number { range, .. } => (1.0e-10, *range == Range::Any),
-            Kind::Choice(_) => (0.0, false),
+            Kind::Choice(_) | Kind::Numbers { .. } => (0.0, false),
         };
         // Of opposite signs, for attraction.
         let values = [size, if signed { -size } else { size }].map(|value| quoted(value, &quantity.unit()));

@@ -47,7 +47,7 @@ const SERIES: &[Description] = &[
     ("work_walls", "work of walls and groups that move as prescribed", "J"),
     ("work_servo", "work of walls under a pressure", "J"),
     ("work_cell", "work of a periodic cell that deforms", "J"),
-    ("switched", "energy that switches between stages brought", "J"),
+    ("switched", "energy that switches between stages and forces and settings of a program brought", "J"),
     ("inflow", "energy of inserted particles", "J"),
     ("outflow", "energy of removed particles", "J"),
     ("kinetic", "kinetic energy", "J"),

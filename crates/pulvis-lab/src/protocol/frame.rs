@@ -38,6 +38,11 @@ impl<'a> Selection<'a> {
         Self { fields: None, contacts: DEFAULT_CONTACT_FIELDS.to_vec(), memory: None, region: None, clusters }
     }
 
+    /// The same without anything of contacts.
+    pub(super) fn without_contacts(self) -> Self {
+        Self { contacts: Vec::new(), ..self }
+    }
+
     /// Names of what there is of particles, which have these further columns.
     pub(super) fn fields<'b>(&self, own: impl Iterator<Item = &'b str>) -> Vec<&'b str>
     where

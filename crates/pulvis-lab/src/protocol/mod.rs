@@ -69,7 +69,7 @@ pub use regime::{Cause, ContactRegime, StageRegime};
 pub use resources::size_in_words;
 pub(crate) use run::threads_for;
 pub use run::{PictureOptions, Progress, RunOptions, RunSummary, StageResult, resume, run};
-pub use session::{Advance, Session};
+pub use session::{Advance, EditError, MotionValue, Session};
 pub use setup::{Prepared, StagePlan, prepare};
 pub use stage::Ending;
 pub(crate) use start::frame_of_checkpoint;

@@ -51,6 +51,7 @@ fn parameter(parameter: &Parameter) -> Value {
     };
     match kind {
         Kind::Number { range, .. } => value["range"] = limits(*range),
+        Kind::Numbers { .. } => value["list"] = json!(true),
         Kind::Choice(options) => {
             let options =
                 options.iter().map(|option| json!({"name": option.name, "meaning": option.meaning}));
@@ -84,6 +85,7 @@ pub(super) fn written(values: &Values) -> Value {
         let value = match value {
             LawValue::Number(number) => number_or_word(*number),
             LawValue::Choice(name) => json!(name),
+            LawValue::Numbers(numbers) => json!(numbers),
         };
         (name.to_owned(), value)
     });

@@ -97,6 +97,8 @@ fn particles_of(particles: &Particles) -> ParticleState {
         // Written at the beginning of a step, before they are read.
         velocity_predicted: _,
         angular_velocity_predicted: _,
+        // Given again by the program that applies them; what the next step begins with is in the forces.
+        applied: _,
         columns,
         next_id: _,
         // Follows from the groups.

@@ -129,12 +129,13 @@ fn law_keys(law: &NamedLaw) -> Vec<(String, String)> {
     let mut keys: Vec<_> = named.then(|| ("law".to_owned(), text(law.name))).into_iter().collect();
     for (name, value) in law.values.iter() {
         let dimension = match entry.and_then(|entry| entry.parameter(name)).map(|parameter| parameter.kind) {
-            Some(Kind::Number { dimension, .. }) => dimension,
+            Some(Kind::Number { dimension, .. } | Kind::Numbers { dimension, .. }) => dimension,
             _ => Dimension::NONE,
         };
         let value = match value {
             Value::Number(value) => quantity(*value, dimension),
             Value::Choice(name) => text(name),
+            Value::Numbers(values) => list(values.iter().map(|value| quantity(*value, dimension))),
         };
         keys.push((key(name), value));
     }

@@ -176,7 +176,12 @@ impl Checkpoint {
     }
 
     /// Writes the file; see [`checkpoint::write`].
-    fn write(&self, path: &Path, previous: Option<&Path>, label: &Label<'_>) -> Result<u64, IoError> {
+    pub(super) fn write(
+        &self,
+        path: &Path,
+        previous: Option<&Path>,
+        label: &Label<'_>,
+    ) -> Result<u64, IoError> {
         checkpoint::write(path, previous, &self.header(label), |out| {
             postcard::to_io(self, Out(out)).map(drop).map_err(io::Error::other)
         })

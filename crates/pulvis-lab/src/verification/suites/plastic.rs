@@ -1,10 +1,11 @@
 //! Laws of plastic contacts with straight branches, and their like.
 
 use pulvis_contact::ContactModel;
+use pulvis_contact::catalogue::Values;
 use pulvis_input::collision::{Bodies, Sphere};
 
 use super::{Bench, FLAT, INTEGRATED, ROUND_OFF, Suite, Tolerance};
-use crate::verification::contact::{Path, normal, outcome, restitution, wall};
+use crate::verification::contact::{Path, normal, normal_by, outcome, restitution, wall};
 use crate::verification::data::Row;
 use crate::verification::search::{border, lowest};
 
@@ -14,6 +15,7 @@ pub(super) const SUITES: &[Suite] = &[
     ("eepa", eepa),
     ("pasha", pasha),
     ("kempton", kempton),
+    ("tabulated", tabulated),
 ];
 
 /// The place of a kink where the force is least: known as well as the force.
@@ -56,6 +58,36 @@ fn walton_johnson(bench: &mut Bench) {
         }
         border(kink, 0.0, |overlap| path.force(overlap) < 0.0)
     });
+}
+
+/// Curves that bend, from the areas under them. Geometrically similar bodies rebound alike at one speed.
+fn tabulated(bench: &mut Bench) {
+    bench.expect_from(
+        "areas under straight pieces: m v²/2 = k δ_1²/2 + k δ_1 t + k' t²/2, e² m v²/2 = F²/(2 k_u)",
+    );
+    let (knee, soft, hard, unload) = (1e-5, 100.0, 200.0, 400.0);
+    let (loading, forces) = ([0.0, knee, 2.0 * knee], [0.0, soft * knee, (soft + hard) * knee]);
+    let curves = Values::new()
+        .with_numbers("loading_overlap", &loading)
+        .with_numbers("loading_force", &forces)
+        .with_numbers("unloading_overlap", &[knee, 2.0 * knee])
+        .with_numbers("unloading_force", &[0.0, unload * knee]);
+    let mass = 1e-6;
+    for beyond in [0.0, 0.5 * knee, 7.0 * knee] {
+        let load = 0.5 * soft * knee * knee + soft * knee * beyond + 0.5 * hard * beyond * beyond;
+        let force = soft * knee + hard * beyond;
+        let (speed, expected) = ((2.0 * load / mass).sqrt(), (force * force / (2.0 * unload) / load).sqrt());
+        for (size, reference) in [(1.0, None), (1.0, Some(1e-3)), (3.0, Some(1e-3))] {
+            let values = match reference {
+                Some(radius) => curves.clone().with("reference_radius", radius),
+                None => curves.clone(),
+            };
+            let bodies = wall(size * size * size * mass, size * 1e-3);
+            let found = || restitution(&normal_by("tabulated", &values)?, bodies, speed);
+            let case = format!("k=100, 200, 400 δ_1=1e-5 t={beyond:e} size={size} R_ref={reference:?}");
+            bench.check("e", case, expected, found(), INTEGRATED);
+        }
+    }
 }
 
 fn molerus(bench: &mut Bench) {

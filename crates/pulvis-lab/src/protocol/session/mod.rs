@@ -1,9 +1,12 @@
 //! The stages of a scenario in the hands of a program: step by step, without files.
 
+mod edit;
+mod files;
+
 use pulvis_core::{InstructionSet, Interactions, Simulation};
 use pulvis_input::scenario::Scenario;
 
-use super::checkpoint::WatchRecord;
+use super::checkpoint::{Ancestor, WatchRecord};
 use super::error::RunError;
 use super::explain::likely_cause;
 use super::measure::Measure;
@@ -14,6 +17,8 @@ use super::setup::{Prepared, StagePlan, prepare};
 use super::stage::{Ending, StageWatch};
 use super::switch::switch;
 use super::warnings::warnings;
+pub use edit::{EditError, MotionValue};
+use files::Outputs;
 
 /// A scenario under way. The state after any number of steps is, bit for bit, that of [`run`](super::run()): stages begin and
 /// end at the same steps.
@@ -36,8 +41,13 @@ pub struct Session {
     /// Where the session began.
     first_step: u64,
     warnings: Vec<String>,
-    /// Why it has stopped for good.
+    /// Whether it has stopped for good.
     broken: bool,
+    /// The runs that this one has branched from.
+    ancestors: Vec<Ancestor>,
+    /// Whether the program has moved a wall: no checkpoint holds that.
+    leads_walls: bool,
+    outputs: Outputs,
 }
 
 /// What came of a call of [`Session::advance`].
@@ -71,6 +81,9 @@ impl Session {
             first_step: simulation.steps(),
             warnings,
             broken: false,
+            ancestors: origin.ancestors,
+            leads_walls: false,
+            outputs: Outputs::default(),
             simulation,
             scenario,
         };

@@ -1,0 +1,214 @@
+"""What a program changes in a simulation between steps, and the files that it asks for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pulvis
+
+BALL = {
+    "material": "glass",
+    "radius": {"distribution": "fixed", "value": 1e-3},
+    "arrangement": {"kind": "lattice", "lower": [0.5e-3, 0.5e-3, 1e-3], "counts": [1, 1, 1], "spacing": 2.1e-3},
+}
+
+
+def ball_in_a_box(**tables: Any) -> pulvis.Simulation:
+    """Built by calls, with laws as objects."""
+    spring = pulvis.law("linear", k=1000)
+    return pulvis.Simulation(
+        materials={"glass": {"density": 2500}, "plate": {}},
+        contacts={
+            "glass-glass": spring,
+            "glass-plate": pulvis.contact(spring, viscosity=pulvis.law("constant", gamma_0=0.05)),
+        },
+        box={"lower": [0, 0, 0], "upper": [3e-3, 3e-3, 8e-3], "material": "plate"},
+        particles=BALL,
+        **tables,
+    )
+
+
+def test_a_simulation_is_built_by_calls() -> None:
+    simulation = ball_in_a_box(gravity=[0, 0, -9.81])
+    assert simulation.stages == ["open"] and len(simulation.particles) == 1
+    simulation.advance(10)
+    assert simulation.particles.velocity[0, 2] == pytest.approx(-9.81 * simulation.time, rel=1e-12)
+    with pytest.raises(pulvis.InputError, match="a file has its tables"):
+        pulvis.Simulation("file.toml", gravity=[0, 0, 0])
+    with pytest.raises(pulvis.InputError, match="unknown key"):
+        ball_in_a_box(colour="red")
+
+
+def test_positions_velocities_and_quantities_can_be_set(gas: dict[str, Any]) -> None:
+    simulation = pulvis.Simulation(gas)
+    simulation.advance(200)
+    particles = simulation.particles
+    velocity = particles.velocity
+    kinetic, error = simulation.ledger["kinetic_translation"], simulation.ledger["closing_error"]
+    particles.velocity = 2 * velocity
+    assert np.array_equal(particles.velocity, 2 * velocity)
+    ledger = simulation.ledger
+    assert ledger["kinetic_translation"] == pytest.approx(4 * kinetic, rel=1e-12)
+    # The change is booked, so that the ledger stays as closed as it was.
+    assert ledger["closing_error"] == pytest.approx(error, abs=1e-12 * kinetic)
+    particles["angular_velocity"] = [0, 0, 3]
+    assert np.array_equal(particles.angular_velocity, np.tile([0.0, 0.0, 3.0], (len(particles), 1)))
+    forces = simulation.contacts().force
+    shift = np.array([1e-3, 0, 0])
+    particles.position = particles.position + shift
+    # A shifted periodic system is the same system; overlaps are differences of positions that have other round-off.
+    np.testing.assert_allclose(np.sort(simulation.contacts().force[:, 0]), np.sort(forces[:, 0]), atol=1e-9)
+    particles.add("charge", "C", 1e-12)
+    particles.charge = np.arange(len(particles)) * 1e-12
+    assert particles.charge[5] == 5e-12
+    simulation.advance(100)
+    assert np.all(np.isfinite(particles.position)) and particles.charge[5] == 5e-12
+
+
+def test_what_cannot_be_set_is_refused(gas: dict[str, Any]) -> None:
+    simulation = pulvis.Simulation(gas)
+    particles = simulation.particles
+    with pytest.raises(pulvis.InputError, match=r"shape \(2, 3\), expected \(216, 3\)"):
+        particles.position = np.zeros((2, 3))
+    with pytest.raises(pulvis.InputError, match="expected finite numbers"):
+        particles.velocity = np.full((216, 3), np.nan)
+    with pytest.raises(pulvis.InputError, match="mass cannot be set"):
+        particles.mass = 1.0
+    with pytest.raises(AttributeError, match="no column `colour`"):
+        particles.colour = 1.0
+    view = particles.view("velocity")
+    with pytest.raises(pulvis.ViewError):
+        particles.velocity = np.zeros((216, 3))
+    del view
+    particles.velocity = np.zeros((216, 3))
+
+
+def test_forces_of_python_act_as_gravity_does() -> None:
+    fallen, pushed, asked = ball_in_a_box(gravity=[0, 0, -9.81]), ball_in_a_box(), ball_in_a_box()
+    weight = fallen.particles.mass[:, None] * np.array([0, 0, -9.81])
+    pushed.apply(weight)
+    seen: list[int] = []
+
+    def force(simulation: pulvis.Simulation) -> Any:
+        seen.append(simulation.steps)
+        return weight
+
+    asked.apply(force)
+    for simulation in (fallen, pushed, asked):
+        simulation.advance(3000)
+    assert seen == list(range(3000))
+    # It has fallen, bounced and lies: sums in another order.
+    for simulation in (pushed, asked):
+        np.testing.assert_allclose(simulation.particles.position, fallen.particles.position, rtol=1e-9)
+        assert abs(simulation.ledger["relative_error"]) < 1e-6
+    np.testing.assert_allclose(pushed.walls["z-low"].force, fallen.walls["z-low"].force, rtol=1e-6, atol=1e-12)
+    asked.apply(None)
+    asked.advance(1)
+    assert len(seen) == 3000
+    with pytest.raises(pulvis.InputError, match=r"expected \(1, 3\)"):
+        pushed.apply([1.0, 2.0])
+
+
+def test_walls_are_read_and_driven() -> None:
+    simulation = ball_in_a_box()
+    lid = simulation.walls["z-high"]
+    assert lid.motion == "fixed" and lid.velocity.tolist() == [0, 0, 0]
+    lid.velocity = (0, 0, -0.1)
+    simulation.advance(100)
+    assert lid.motion == "velocity" and lid.velocity.tolist() == [0, 0, -0.1]
+    # A hundred sums of round-off.
+    assert lid.point[2] == pytest.approx(8e-3 - 0.1 * simulation.time, rel=1e-12)
+    lid.move("fixed")
+    height = lid.point[2]
+    simulation.advance(10)
+    assert lid.point[2] == height
+    lid.present = False
+    assert not lid.present
+    with pytest.raises(pulvis.InputError, match="no motion is called `jump`"):
+        lid.move("jump")
+    with pytest.raises(pulvis.InputError, match="has no `speed`; it has velocity"):
+        lid.move("velocity", speed=1)
+    with pytest.raises(pulvis.InputError, match="`velocity` of a wall: expected three components"):
+        lid.move("velocity", velocity=1)
+
+
+def test_a_saved_simulation_goes_on_with_the_same_bits(gas: dict[str, Any], tmp_path: Path) -> None:
+    whole = pulvis.Simulation(gas)
+    with pytest.raises(pulvis.RunError, match="before the first step"):
+        whole.save(tmp_path / "early.pulvis")
+    whole.advance(150)
+    whole.save(tmp_path / "state.pulvis")
+    whole.run()
+    resumed = pulvis.Simulation.resume(tmp_path / "state.pulvis")
+    assert resumed.steps == 150 and resumed.stage == "mix"
+    resumed.run()
+    assert resumed.steps == whole.steps and resumed.is_over
+    for name in whole.particles.names:
+        assert np.array_equal(resumed.particles[name], whole.particles[name]), name
+    assert [end.name for end in resumed.ended] == ["mix", "fall"]
+    whole.save(tmp_path / "end.pulvis")
+    assert pulvis.Simulation.resume(tmp_path / "end.pulvis").is_over
+    with pytest.raises(pulvis.InputError):
+        pulvis.Simulation.resume(tmp_path / "missing.pulvis")
+
+
+def test_a_simulation_goes_on_from_the_checkpoint_of_a_run(gas: dict[str, Any], tmp_path: Path) -> None:
+    run = pulvis.run(gas, tmp_path / "run", set={})
+    resumed = pulvis.Simulation.resume(run.folder)
+    assert resumed.is_over and resumed.measure()["kinetic"] == run.timeseries.kinetic[-1]
+
+
+def test_no_checkpoint_is_written_of_what_it_cannot_hold(gas: dict[str, Any], tmp_path: Path) -> None:
+    simulation = pulvis.Simulation(gas)
+    simulation.advance(1)
+    simulation.apply(np.zeros((216, 3)))
+    with pytest.raises(pulvis.RunError, match="applies forces"):
+        simulation.save(tmp_path / "state.pulvis")
+    simulation.apply(None)
+    simulation.save(tmp_path / "state.pulvis")
+
+
+def test_instants_and_pictures_are_files(gas: dict[str, Any], tmp_path: Path) -> None:
+    simulation = pulvis.Simulation(gas)
+    for _ in range(2):
+        simulation.advance(50)
+        simulation.write(tmp_path / "vtk")
+        simulation.write(tmp_path / "npz", "npz", contacts=False)
+    assert len(list((tmp_path / "npz").glob("*.npz"))) == 2
+    assert len(list((tmp_path / "vtk").glob("particles_*.vtp"))) == 2
+    [_, last] = sorted((tmp_path / "npz").glob("*.npz"))
+    with np.load(last) as arrays:
+        order = np.argsort(arrays["id"])
+        assert np.array_equal(arrays["position"][order], simulation.particles.position)
+    simulation.picture(tmp_path / "particles.png")
+    assert (tmp_path / "particles.png").read_bytes()[:4] == b"\x89PNG"
+    with pytest.raises(pulvis.RunError, match="lammps-dump"):
+        simulation.write(tmp_path, "gif")
+
+
+def test_contacts_are_one_structured_array(gas: dict[str, Any]) -> None:
+    simulation = pulvis.Simulation(gas)
+    simulation.run(until="mix")
+    contacts = simulation.contacts()
+    array = contacts.to_structured()
+    assert array.dtype["force"].shape == (3,) and len(array) == len(contacts.id1)
+    assert np.array_equal(array["force"], contacts.force) and array["id1"].dtype.kind == "i"
+    # What the slider remembers is there by its name.
+    assert any(name.startswith("sliding") or "spring" in name for name in array.dtype.names or ()), array.dtype.names
+    assert contacts.stored_energy.sum() > 0
+
+
+def test_rows_that_were_recorded_are_drawn(gas: dict[str, Any]) -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    from matplotlib.figure import Figure
+
+    simulation = pulvis.Simulation(gas)
+    simulation.every(10, pulvis.Simulation.record)
+    simulation.advance(50)
+    axes = simulation.plot("kinetic", "elastic", ax=Figure().subplots())
+    assert len(axes.lines) == 2 and len(axes.lines[0].get_xdata()) == 5
