@@ -23,7 +23,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Sets velocities [m/s].
+    /// Sets velocities [m/s]. Particles whose motion is [prescribed](Self::set_group_motion) keep that of their path.
     ///
     /// # Errors
     /// As of [`set_positions`](Self::set_positions).
@@ -32,13 +32,15 @@ impl Simulation {
         self.switch(|simulation| {
             let rows = simulation.particles.rows_by_id();
             for (row, velocity) in rows.into_iter().zip(velocities) {
-                simulation.particles.velocity[row].vector = *velocity;
+                if !simulation.particles.is_prescribed(row) {
+                    simulation.particles.velocity[row].vector = *velocity;
+                }
             }
         });
         Ok(())
     }
 
-    /// Sets angular velocities [rad/s].
+    /// Sets angular velocities [rad/s], but for those of particles whose motion is prescribed.
     ///
     /// # Errors
     /// As of [`set_positions`](Self::set_positions).
@@ -47,7 +49,9 @@ impl Simulation {
         self.switch(|simulation| {
             let rows = simulation.particles.rows_by_id();
             for (row, angular_velocity) in rows.into_iter().zip(angular_velocities) {
-                simulation.particles.angular_velocity[row].vector = *angular_velocity;
+                if !simulation.particles.is_prescribed(row) {
+                    simulation.particles.angular_velocity[row].vector = *angular_velocity;
+                }
             }
         });
         Ok(())

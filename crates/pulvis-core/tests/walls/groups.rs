@@ -256,6 +256,24 @@ fn held_grains_that_overlap_each_other_or_a_wall_feel_nothing_and_are_crossed_by
     assert!(ledger.closing_error().abs() < 1e-12 * ledger.switched.abs(), "{ledger:?}");
 }
 
+#[test]
+fn what_a_program_sets_and_applies_leaves_led_grains_on_their_path_and_the_ledger_closed() {
+    let particles = vec![at_rest(Vector3::zero()), at_rest(vector(9.0 * RADIUS, 0.0, 0.0))];
+    let mut simulation = held(setup(particles, elastic()), 100.0, 1, velocity(vector(0.1, 0.0, 0.0)));
+    simulation.set_velocities(&[vector(5.0, 0.0, 0.0), vector(0.0, 0.1, 0.0)]).unwrap();
+    simulation.set_angular_velocities(&[vector(0.0, 9.0, 0.0), Vector3::zero()]).unwrap();
+    simulation.set_applied_forces(&[vector(1e-3, 0.0, 0.0), vector(0.0, 1e-5, 0.0)]).unwrap();
+    simulation.advance(500).unwrap();
+    let [led, free] = states(&simulation)[..] else { panic!() };
+    assert_eq!((led.velocity, led.angular_velocity), (vector(0.1, 0.0, 0.0), Vector3::zero()));
+    assert!(free.velocity.y > 0.1);
+    let ledger = simulation.ledger();
+    // What the program pushes with, the one who leads holds against: 1e-3 N along the way.
+    assert!((ledger.work_walls / (-1e-3 * led.position.x) - 1.0).abs() < 1e-9, "{ledger:?}");
+    assert!(ledger.closing_error().abs() < 1e-9 * ledger.work_walls.abs(), "{ledger:?}");
+    assert_eq!(load(&simulation), Vector3::zero());
+}
+
 fn refusal(simulation: &mut Simulation, name: &str, motion: GroupMotion) -> String {
     simulation.set_group_motion(name, motion).unwrap_err().to_string()
 }

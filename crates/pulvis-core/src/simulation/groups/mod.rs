@@ -59,7 +59,7 @@ impl Group {
     }
 }
 
-/// Force and torque of everything else on a group: of contacts and attractions, not of gravity and drag.
+/// Force and torque of everything else on a group: of contacts and attractions, not of gravity, drag and what a program applies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroupLoad {
     /// Force [N].
@@ -207,7 +207,9 @@ impl Simulation {
                 (particles.velocity[row].vector, particles.angular_velocity[row].vector);
             let drag = background.drag_on(velocity, turning, position.scalar);
             let of_all = &particles.forces_and_torques[row];
-            let of_contacts = of_all.force.vector - background.gravity * particles.mass[row] + drag.force;
+            let applied = particles.applied.get(row).map_or(Vector3::zero(), |applied| applied.vector);
+            let outer = background.gravity * particles.mass[row] - drag.force + applied;
+            let of_contacts = of_all.force.vector - outer;
             force += of_contacts;
             torque += (position.vector - point).cross(of_contacts) + of_all.torque.vector + drag.torque;
         }
