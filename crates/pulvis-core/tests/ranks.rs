@@ -9,14 +9,15 @@ use std::time::Duration;
 
 use common::*;
 use pulvis_boundary::Cuboid;
-use pulvis_boundary::motion::PressureRamp;
+use pulvis_boundary::motion::{AxisRotation, PressureRamp};
 use pulvis_contact::NonContact;
 use pulvis_contact::bond;
 use pulvis_contact::catalogue::Values;
 use pulvis_contact::noncontact::JumpIn;
 use pulvis_core::walls::{FaceArea, Mesh, Servo, TriangleMesh, Velocity, Wall, WallMotion};
 use pulvis_core::{
-    Alarm, Background, CellControl, CellMotion, Domain, Limits, Region, Setup, Simulation, StepError,
+    Alarm, Background, CellControl, CellMotion, Domain, GroupMotion, Limits, Region, Setup, Simulation,
+    StepError,
 };
 use pulvis_math::Vector3;
 use pulvis_packing::{gaussian_vector, random_positions, random_stream};
@@ -197,6 +198,25 @@ fn a_mesh_that_is_pushed_into_a_powder_has_the_same_bits_on_any_number_of_ranks(
     };
     let bed = assert_the_same_bits_on_any_number_of_ranks("mesh", stirred, |bed| bed.advance(900).unwrap());
     assert!(bed.wall_force(0).norm() > 0.0);
+}
+
+#[test]
+fn a_group_that_is_led_through_a_powder_has_the_same_bits_on_any_number_of_ranks() {
+    let led = || {
+        let edge = 22.0 * RADIUS;
+        let mut bed = start(implosion(600, edge, 3, viscous_luding()), 25.0);
+        let group: Vec<u32> = (0..600).step_by(40).collect();
+        bed.set_group("led", &group).unwrap();
+        let (point, axis) = (vector(0.5, 0.5, 0.5) * edge, vector(0.0, 0.0, 1.0));
+        let turning = AxisRotation { point, axis, angular_velocity: 20.0 };
+        bed.set_group_motion("led", GroupMotion::Rotation(turning)).unwrap();
+        bed
+    };
+    let bed = assert_the_same_bits_on_any_number_of_ranks("led", led, |bed| {
+        bed.advance(400).unwrap();
+        bed.advance(300).unwrap();
+    });
+    assert!(bed.groups()[0].work().abs() > 0.0);
 }
 
 #[test]

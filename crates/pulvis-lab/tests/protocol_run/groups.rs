@@ -112,6 +112,9 @@ fn goes_on_anywhere(text: &str) {
     assert!(resumed > 3, "{resumed}");
     let read = |folder: &Path| fs::read_to_string(folder.join("timeseries.csv")).unwrap();
     assert_eq!(read(stopped.path()), read(whole.path()));
+    let shared = tempdir().unwrap();
+    super::protocol_scenarios::on_ranks(&plan, shared.path(), 2);
+    assert_eq!(read(shared.path()), read(whole.path()), "on two ranks");
 }
 
 #[test]
