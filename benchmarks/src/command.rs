@@ -31,6 +31,9 @@ pub(crate) struct Run {
     /// Number of threads.
     #[arg(long, default_value_t = 1)]
     pub(crate) threads: usize,
+    /// Number of ranks, which are threads that share no memory; under `mpirun` as many as it starts.
+    #[arg(long, default_value_t = 1)]
+    pub(crate) ranks: usize,
     /// Whether energies are accounted for.
     #[arg(long, value_enum, default_value_t = Ledger::On)]
     ledger: Ledger,

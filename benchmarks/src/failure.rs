@@ -31,6 +31,10 @@ pub(crate) enum Failure {
     /// An instruction set that this machine does not have.
     #[error("no instruction set `{found}` on this machine; it has {expected}")]
     Instructions { found: String, expected: String },
+    /// MPI cannot be used.
+    #[cfg(feature = "mpi")]
+    #[error("MPI: {0}")]
+    Ranks(String),
     #[error(transparent)]
     Law(#[from] InputErrors),
     #[error(transparent)]

@@ -7,6 +7,7 @@ mod failure;
 mod kernels;
 mod models;
 mod observed;
+mod ranks;
 mod timing;
 mod workload;
 
@@ -15,11 +16,13 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    match command::Arguments::parse().execute() {
+    let code = match command::Arguments::parse().execute() {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             eprintln!("error: {failure}");
             ExitCode::FAILURE
         }
-    }
+    };
+    ranks::finish();
+    code
 }

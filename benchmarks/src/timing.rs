@@ -1,13 +1,16 @@
 //! Timed steps, and the report.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
 use pulvis_core::{Phases, Setup, Simulation};
+use pulvis_parallel::exchange::Exchange;
 
 use crate::command::Run;
 use crate::failure::Failure;
 use crate::observed::{Observed, write_table};
+use crate::ranks::{self, Counted};
 
 /// What the clock said.
 struct Times {
@@ -20,6 +23,21 @@ struct Times {
 /// Sets the system up, does the steps and prints the report. As with the peers' loop time, setting up
 /// and the first forces are not counted.
 pub(crate) fn run(name: &str, setup: Setup, run: &Run) -> Result<(), Failure> {
+    let mut exchanges = ranks::exchanges(run.ranks)?.into_iter();
+    let Some(first) = exchanges.next() else { return run_one(name, setup, run, None) };
+    std::thread::scope(|scope| {
+        let others: Vec<_> = exchanges
+            .map(|exchange| scope.spawn(|| run_one(name, setup.clone(), run, Some(exchange))))
+            .collect();
+        let result = run_one(name, setup.clone(), run, Some(first));
+        // A thread that has panicked has said so.
+        let others = others.into_iter().filter_map(|thread| thread.join().ok());
+        others.fold(result, Result::and)
+    })
+}
+
+/// The same on one rank, of which the first prints the report.
+fn run_one(name: &str, setup: Setup, run: &Run, exchange: Option<Arc<Counted>>) -> Result<(), Failure> {
     let mut simulation = Simulation::new(setup)?;
     if let Some(skin) = run.skin {
         simulation.set_skin(skin)?;
@@ -32,8 +50,21 @@ pub(crate) fn run(name: &str, setup: Setup, run: &Run) -> Result<(), Failure> {
         simulation.disable_ledger();
     }
     simulation.set_law_pointers(run.pointers);
-    simulation.advance(run.warm_up)?;
+    if let Some(exchange) = &exchange {
+        simulation.set_exchange(Arc::clone(exchange) as Arc<dyn Exchange>);
+    }
+    simulation.advance_apart(run.warm_up)?;
+    if let Some(exchange) = &exchange {
+        exchange.reset();
+    }
     let times = timed_steps(&mut simulation, run.steps)?;
+    if let Some(exchange) = &exchange {
+        println!("{}", exchange.report(run.steps, simulation.halo_rows(), times.wall.as_secs_f64()));
+    }
+    simulation.tell_everything()?;
+    if exchange.is_some_and(|exchange| exchange.rank() > 0) {
+        return Ok(());
+    }
     print(name, &mut simulation, run.steps, &times);
     match &run.write {
         Some(path) => write_table(&simulation, path),
@@ -45,7 +76,7 @@ fn timed_steps(simulation: &mut Simulation, steps: u64) -> Result<Times, Failure
     let rebuilds = simulation.rebuilds();
     simulation.watch_phases();
     let (cpu, wall) = (ProcessTime::now(), Instant::now());
-    simulation.advance(steps)?;
+    simulation.advance_apart(steps)?;
     Ok(Times {
         wall: wall.elapsed(),
         cpu: cpu.elapsed(),
