@@ -37,7 +37,13 @@ fn made_anew(count: usize, random: &mut Random) -> Result<Vec<Particle>, Failure
     let per_edge = elementary::cbrt(count as f64).ceil() as usize;
     let spacing = edge / per_edge as f64;
     let jitter = (0.5 - 1.2 * RADIUS / spacing).max(0.0);
-    let lattice = Lattice { lower: Vector3::zero(), counts: [per_edge; 3], spacing, jitter };
+    let lattice = Lattice {
+        lower: Vector3::zero(),
+        counts: [per_edge; 3],
+        spacing,
+        jitter,
+        structure: Structure::SimpleCubic,
+    };
     let mut sites = lattice.positions(random);
     sites.shuffle(random);
     let velocities: Vec<_> = (0..count).map(|_| gaussian_vector(random) * SPEED).collect();
