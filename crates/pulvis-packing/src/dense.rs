@@ -193,7 +193,7 @@ impl<'a> Growing<'a> {
     /// Moves spheres back into the block. Answers with how far one stood out, over its diameter.
     fn keep_inside(&mut self, scale: f64, ways: &mut [f64]) -> f64 {
         let mut worst = 0.0_f64;
-        for sphere in 0..self.grow {
+        for (sphere, way) in ways.iter_mut().enumerate() {
             let radius = self.radius(sphere, scale);
             for axis in (0..3).filter(|&axis| self.domain.period(axis).is_none()) {
                 let (low, high) = (self.region.lower[axis] + radius, self.region.upper[axis] - radius);
@@ -202,7 +202,7 @@ impl<'a> Growing<'a> {
                 let inside = place.max(low).min(high);
                 let out = (*place - inside).abs().max(low - high);
                 worst = worst.max(0.5 * out / radius);
-                ways[sphere] += (*place - inside).abs();
+                *way += (*place - inside).abs();
                 *place = inside;
             }
         }
