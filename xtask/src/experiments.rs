@@ -8,7 +8,7 @@ use pulvis_input::figure::FigureScenario;
 
 use crate::Outcome;
 use crate::expected::{Collisions, Demand, collisions, demands};
-use crate::process::{pulvis, root, run as run_command, scratch, text};
+use crate::process::{pulvis, root, run as run_command, scratch, target, text};
 use crate::table::Table;
 use crate::tests::read_by_vtk;
 
@@ -19,31 +19,48 @@ const LEDGER_TOLERANCE: f64 = 1e-4;
 /// Runs the experiments of the folders, or of one.
 pub fn run(only: Option<&str>) -> Outcome {
     let pulvis = pulvis()?;
+    let folders = folders(only)?;
+    // A run is short if its folder says so by a file `short.toml`; the whole one is for patience.
+    let short: Vec<&PathBuf> = folders.iter().filter(|folder| folder.join(SHORT).exists()).collect();
+    // Each of them has one thread; the others keep the second processor busy meanwhile.
+    let others = std::thread::scope(|scope| {
+        let runs: Vec<_> = short.iter().map(|folder| scope.spawn(|| run_stages(&pulvis, folder))).collect();
+        let others = run_others(&pulvis, &folders, only)?;
+        for run in runs {
+            run.join().map_err(|_| "a run panicked".to_owned())??;
+        }
+        Ok::<usize, String>(others)
+    })?;
+    for folder in &short {
+        check_stages(folder)?;
+    }
+    if others + short.len() == 0 { Err("no experiment was found".to_owned()) } else { Ok(()) }
+}
+
+/// The scenario of a short run.
+const SHORT: &str = "short.toml";
+
+/// Collisions, studies and figures; answers with how many there are.
+fn run_others(pulvis: &Path, folders: &[PathBuf], only: Option<&str>) -> Outcome<usize> {
     let mut ran = 0;
-    for folder in folders(only)? {
+    for folder in folders {
         let collision = folder.join("experiment.toml");
         if is_collision(&collision)? {
-            collide(&pulvis, &folder, &collision)?;
-            ran += 1;
-        }
-        // A run is short if its folder says so by a file `short.toml`; the whole one is for patience.
-        let short = folder.join("short.toml");
-        if short.exists() {
-            run_stages(&pulvis, &folder, &short)?;
+            collide(pulvis, folder, &collision)?;
             ran += 1;
         }
         let study = folder.join("study.toml");
         let is_quick = QUICK_STUDIES.iter().any(|quick| folder.ends_with(quick));
         if study.exists() && (is_quick || only.is_some()) {
-            run_study(&pulvis, &study)?;
+            run_study(pulvis, &study)?;
             ran += 1;
         }
     }
     if only.is_none_or(|name| name == FIGURES) {
-        reproduce(&pulvis)?;
+        reproduce(pulvis)?;
         ran += 1;
     }
-    if ran == 0 { Err("no experiment was found".to_owned()) } else { Ok(()) }
+    Ok(ran)
 }
 
 /// Studies that take seconds; the others are run if they are named.
@@ -133,10 +150,22 @@ fn check_collisions(table: &Table, expected: &Collisions) -> Outcome<usize> {
     Ok(chi.len())
 }
 
-/// The run ends well, its ledger closes, its files can be read and its series meet the demands.
-fn run_stages(pulvis: &Path, folder: &Path, scenario: &Path) -> Outcome {
-    let output = scratch(&format!("experiments/{}", name(folder)))?;
-    run_command(Command::new(pulvis).arg("run").arg(scenario).arg("--output").arg(&output).arg("--force"))?;
+/// The run ends well.
+fn run_stages(pulvis: &Path, folder: &Path) -> Outcome {
+    let (scenario, output) = (folder.join(SHORT), scratch(&place(folder))?);
+    let mut command = Command::new(pulvis);
+    command.arg("run").arg(scenario).args(["--quiet", "--threads", "1", "--force", "--output"]).arg(&output);
+    run_command(&mut command)
+}
+
+/// Where the run of a folder writes.
+fn place(folder: &Path) -> String {
+    format!("experiments/{}", name(folder))
+}
+
+/// The ledger of a run closes, its files can be read and its series meet the demands.
+fn check_stages(folder: &Path) -> Outcome {
+    let output = target().join("xtask").join(place(folder));
     let series = output.join("timeseries.csv");
     let csv = std::fs::read_to_string(&series).map_err(|error| format!("{}: {error}", series.display()))?;
     let table = Table::parse(&csv)?;
@@ -148,9 +177,8 @@ fn run_stages(pulvis: &Path, folder: &Path, scenario: &Path) -> Outcome {
         return Err(format!("{name}: the ledger closes to {error:e} only, expected {LEDGER_TOLERANCE:e}"));
     }
     read_by_vtk(&output, &[])?;
-    let stem = scenario.file_stem().unwrap_or_default().to_string_lossy();
     let expected = folder.join("expected.toml");
-    let demands = if expected.exists() { demands(&expected, &stem)? } else { Vec::new() };
+    let demands = if expected.exists() { demands(&expected, "short")? } else { Vec::new() };
     for demand in &demands {
         meets(&table, demand).map_err(|message| format!("{}: {message}", name(folder)))?;
     }

@@ -89,6 +89,8 @@ impl Library {
     fn build(&self) -> Outcome<PathBuf> {
         let arguments =
             ["build", "--workspace", "--bin", "pulvis", "--tests", "--features", "pulvis-cli/mpi"];
+        // The bindings are those of the compiler that was named last, which cargo does not look at.
+        run(&mut cargo(&["clean", "--quiet", "--package", "mpi-sys", "--package", "mpi"]))?;
         run(cargo(&arguments).env("MPICC", self.compiler))?;
         let own = std::env::current_exe().map_err(|error| error.to_string())?;
         let copy = target().join("xtask").join(format!("pulvis-{}", self.compiler));

@@ -61,11 +61,9 @@ fn split<'a>(text: &'a str, at: &str) -> [&'a str; 2] {
 
 #[test]
 fn more_materials_than_the_engine_can_number_are_refused() {
-    let mut text = include_str!("protocol_scenarios/tablet.toml").to_owned();
-    let [start, rest] = split(&text, "[contacts.grain-grain]");
-    let more: String = (0..65_536).map(|number| format!("[materials.m{number}]\n")).collect();
-    text = format!("{start}{more}[contacts.grain-grain]{rest}");
-    let error = pulvis_lab::protocol::prepare(&protocol_scenarios::scenario(&text)).unwrap_err().to_string();
+    let mut scenario = small_tablet();
+    scenario.materials.resize(65_538, scenario.materials[0].clone());
+    let error = pulvis_lab::protocol::prepare(&scenario).unwrap_err().to_string();
     assert!(error.contains("65538 materials") && error.contains("at most 65536"), "{error}");
 }
 
