@@ -197,7 +197,7 @@ fn ledgers_close(size: Size) {
 
 #[test]
 fn the_ledger_closes_for_every_law_in_a_small_bed() {
-    ledgers_close(Size { grains: 64, steps: 400, fraction: 0.3 });
+    ledgers_close(Size { grains: 64, steps: 600, fraction: 0.3 });
 }
 
 #[test]

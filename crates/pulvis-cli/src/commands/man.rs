@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Command};
+use pulvis_io::checkpoint::write_text;
 
 use crate::failure::{Failure, print};
 
@@ -23,11 +24,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     // Fills in what `--help` shows of every command.
     program.build();
     if let Some(folder) = &arguments.directory {
+        if !folder.is_dir() {
+            let problem = format!("{}: there is no such folder; make it first", folder.display());
+            return Err(Failure::bad_input(problem));
+        }
         for (name, page) in pages(&program)? {
-            let file = folder.join(format!("{name}.1"));
-            std::fs::write(&file, page).map_err(|error| {
-                Failure::bad_input(format!("{}: cannot be written: {error}", file.display()))
-            })?;
+            write_text(&folder.join(format!("{name}.1")), &page).map_err(Failure::while_running)?;
         }
         return Ok(ExitCode::SUCCESS);
     }
