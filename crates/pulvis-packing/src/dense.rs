@@ -227,7 +227,8 @@ impl<'a> Growing<'a> {
                     Some((count, period)) => {
                         ((place / period * count as f64).floor() as i64).clamp(0, count - 1)
                     }
-                    None => (centre[axis] / width).floor() as i64,
+                    // Beyond this, doubles do not tell cells apart.
+                    None => (centre[axis] / width).floor().clamp(-1e15, 1e15) as i64,
                 }
             })
         };
