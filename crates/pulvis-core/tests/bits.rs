@@ -4,13 +4,11 @@
 mod common;
 
 use common::*;
-use pulvis_boundary::Cuboid;
 use pulvis_contact::noncontact::JumpIn;
 use pulvis_contact::{ContactModel, Linear, NonContact};
 use pulvis_core::walls::{Cylinder, CylinderSide, FaceArea, PressureRamp, Rotation, Servo, Wall, WallMotion};
 use pulvis_core::{Background, ContactPartner, Domain, InstructionSet, Setup, Simulation};
 use pulvis_math::Vector3;
-use pulvis_packing::{gaussian_vector, random_positions, random_stream};
 
 const STEPS_PER_CONTACT: f64 = 25.0;
 
@@ -192,37 +190,9 @@ fn viscous_luding_contacts_that_slide_roll_twist_and_attract_have_the_same_bits_
     }
 }
 
-/// Radii from 0.15 to 1.5 `RADIUS`, most of them small, in a box that is periodic along x, where
-/// everything flies along, and closed by walls elsewhere.
-fn wide_distribution() -> Setup {
-    let edge = 9.0 * RADIUS;
-    let (count, upper) = (1800, vector(edge, edge, edge));
-    let radii: Vec<f64> = (0..count)
-        .map(|place| {
-            let rank = f64::from(place) / f64::from(count - 1);
-            1.5 * RADIUS * 10.0_f64.powf(-rank.powf(0.25))
-        })
-        .collect();
-    let domain = Domain::periodic(Vector3::zero(), upper, [true, false, false]);
-    let mut random = random_stream(7);
-    let region = Cuboid { lower: Vector3::zero(), upper };
-    let places = random_positions(&radii, &region, &domain, &[], &mut random).unwrap();
-    let middle = upper * 0.5;
-    let falling = |(place, radius): (Vector3, f64)| {
-        let mut inwards = (middle - place) * (2.0 / edge);
-        inwards.x = 0.7;
-        let mut particle = sphere(place, inwards + gaussian_vector(&mut random) * 0.2, radius);
-        particle.angular_velocity = gaussian_vector(&mut random) * 200.0;
-        particle
-    };
-    let particles = places.into_iter().zip(radii).map(falling).collect();
-    let walls = cube_of_walls(edge).split_off(2);
-    Setup { domain, walls, ..setup(particles, viscous_luding()) }
-}
-
 #[test]
 fn small_and_large_particles_have_the_same_bits_however_they_are_computed() {
-    let setup = wide_distribution();
+    let setup = wide_distribution(1800, 9.0 * RADIUS, 0.7);
     let simulation = assert_the_same_bits_in_every_way(&setup, 800);
     let mut across = 0;
     let mut pressing = 0;
@@ -265,7 +235,7 @@ fn grains_in_a_drum_that_rotates_have_the_same_bits_however_they_are_computed() 
 fn another_order_of_sums_would_be_seen_in_the_bits() {
     // The control of this file: with another skin the same contacts stand in other blocks, and nothing
     // but the order changes in which their forces and torques are summed.
-    let setup = wide_distribution();
+    let setup = wide_distribution(1800, 9.0 * RADIUS, 0.7);
     let way = Way::plainest();
     let usual = state(&way.advance(&setup, 1000));
     let mut simulation = start(setup, STEPS_PER_CONTACT);

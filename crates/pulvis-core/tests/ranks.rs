@@ -16,11 +16,9 @@ use pulvis_contact::catalogue::Values;
 use pulvis_contact::noncontact::JumpIn;
 use pulvis_core::walls::{FaceArea, Mesh, Servo, TriangleMesh, Velocity, Wall, WallMotion};
 use pulvis_core::{
-    Alarm, Background, CellControl, CellMotion, Domain, GroupMotion, Limits, Region, Setup, Simulation,
-    StepError,
+    Alarm, Background, CellControl, CellMotion, GroupMotion, Limits, Region, Setup, Simulation, StepError,
 };
 use pulvis_math::Vector3;
-use pulvis_packing::{gaussian_vector, random_positions, random_stream};
 use pulvis_parallel::exchange::ThreadRank;
 
 /// What `work` answers on each of so many ranks.
@@ -106,25 +104,7 @@ fn a_pressed_bed_with_all_kinds_of_memory_has_the_same_bits_on_any_number_of_ran
 fn particles_that_fly_around_a_periodic_box_through_all_ranks_have_the_same_bits() {
     // Radii from 0.15 to 1.5 `RADIUS`: lists of several levels. All fly several times through the box, with what their
     // contacts remember.
-    let powder = || {
-        let edge = 7.0 * RADIUS;
-        let (count, upper) = (900, vector(edge, edge, edge));
-        let share = |number: i32| f64::from(number) / f64::from(count - 1);
-        let radii: Vec<f64> =
-            (0..count).map(|number| 1.5 * RADIUS * 10.0_f64.powf(-share(number).powf(0.25))).collect();
-        let domain = Domain::periodic(Vector3::zero(), upper, [true, false, false]);
-        let mut random = random_stream(7);
-        let block = Cuboid { lower: Vector3::zero(), upper };
-        let centres = random_positions(&radii, &block, &domain, &[], &mut random).unwrap();
-        let falling = |(centre, radius): (Vector3, f64)| {
-            let mut inwards = (upper * 0.5 - centre) * (2.0 / edge);
-            inwards.x = 40.0;
-            sphere(centre, inwards + gaussian_vector(&mut random) * 0.2, radius)
-        };
-        let particles = centres.into_iter().zip(radii).map(falling).collect();
-        let walls = cube_of_walls(edge).split_off(2);
-        start(Setup { domain, walls, ..setup(particles, viscous_luding()) }, 25.0)
-    };
+    let powder = || start(wide_distribution(900, 7.0 * RADIUS, 40.0), 25.0);
     let powder = assert_the_same_bits_on_any_number_of_ranks("powder", powder, |powder| {
         powder.advance(1500).unwrap();
     });

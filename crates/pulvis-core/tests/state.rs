@@ -4,17 +4,14 @@
 mod common;
 
 use common::*;
-use pulvis_boundary::Cuboid;
 use pulvis_boundary::motion::AxisRotation;
 use pulvis_contact::NonContact;
 use pulvis_contact::noncontact::JumpIn;
 use pulvis_core::walls::{Cosine, Extent, FaceArea, PressureRamp, Servo, Velocity, WallMotion};
 use pulvis_core::{
-    Background, Domain, GroupMotion, MemoryError, NamedColumn, Region, Setup, SetupError, Simulation, State,
+    Background, GroupMotion, MemoryError, NamedColumn, Region, Setup, SetupError, Simulation, State,
     StateError,
 };
-use pulvis_math::Vector3;
-use pulvis_packing::{gaussian_vector, random_positions, random_stream};
 
 /// Every bit of a state, negative zeros and all.
 fn bits(state: &State) -> String {
@@ -63,29 +60,6 @@ fn assert_goes_on_from_any_step(name: &str, setup: &Setup, mut never_asked: Simu
     );
 }
 
-/// Radii from 0.15 to 1.5 `RADIUS` in a box that is periodic along x, where everything flies along.
-fn wide_distribution() -> Setup {
-    let edge = 7.0 * RADIUS;
-    let (count, upper) = (700, vector(edge, edge, edge));
-    let rank = |number: i32| f64::from(number) / f64::from(count - 1);
-    let radii: Vec<f64> =
-        (0..count).map(|number| 1.5 * RADIUS * 10.0_f64.powf(-rank(number).powf(0.25))).collect();
-    let domain = Domain::periodic(Vector3::zero(), upper, [true, false, false]);
-    let mut random = random_stream(7);
-    let block = Cuboid { lower: Vector3::zero(), upper };
-    let centres = random_positions(&radii, &block, &domain, &[], &mut random).unwrap();
-    let falling = |(centre, radius): (Vector3, f64)| {
-        let mut inwards = (upper * 0.5 - centre) * (2.0 / edge);
-        inwards.x = 0.7;
-        let mut particle = sphere(centre, inwards + gaussian_vector(&mut random) * 0.2, radius);
-        particle.angular_velocity = gaussian_vector(&mut random) * 200.0;
-        particle
-    };
-    let particles = centres.into_iter().zip(radii).map(falling).collect();
-    let walls = cube_of_walls(edge).split_off(2);
-    Setup { domain, walls, ..setup(particles, viscous_luding()) }
-}
-
 /// A powder that attracts itself at a distance, pressed by a servo wall along z while another wall swings along x:
 /// the area of the servo's face depends on where the other one is.
 fn pressed_bed() -> Setup {
@@ -128,7 +102,7 @@ fn a_pressed_bed_with_all_kinds_of_memory_goes_on_from_any_step() {
 
 #[test]
 fn small_and_large_particles_that_fly_around_a_periodic_box_go_on_from_any_step() {
-    let powder = wide_distribution();
+    let powder = wide_distribution(700, 7.0 * RADIUS, 0.7);
     assert_goes_on_from_any_step("wide", &powder, start(powder.clone(), 25.0), [2, 203, 150, 99]);
 }
 

@@ -12,8 +12,8 @@ use pulvis_core::InstructionSet;
 use pulvis_input::scenario::Scenario;
 use pulvis_io::table::significant;
 use pulvis_lab::protocol::{
-    Average, Following, PictureOptions, Progress, RunError, RunOptions, RunSummary, dismiss, follow,
-    follow_nobody, load_scenario, resume, run,
+    Average, Followed, Following, PictureOptions, Progress, RunError, RunOptions, RunSummary, dismiss,
+    follow, follow_nobody, load_scenario, resume, run,
 };
 use pulvis_parallel::exchange::Exchange;
 
@@ -146,9 +146,9 @@ fn follow_leader(
         (None, None) => return Ok(ExitCode::SUCCESS),
     };
     match follow(following, &options, exchange, &stop) {
-        Ok(Ok(())) if stop.load(Ordering::Relaxed) => Ok(ExitCode::from(INTERRUPTED)),
-        Ok(Ok(())) => Ok(ExitCode::SUCCESS),
-        Ok(Err(error)) => Ok(failure(error).silent()),
+        Ok(Followed::ToTheEnd) if stop.load(Ordering::Relaxed) => Ok(ExitCode::from(INTERRUPTED)),
+        Ok(Followed::ToTheEnd) => Ok(ExitCode::SUCCESS),
+        Ok(Followed::UntilTold(error)) => Ok(failure(error).silent()),
         Err(error) => Err(failure(error).on_rank(exchange.rank())),
     }
 }

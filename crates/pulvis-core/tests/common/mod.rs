@@ -222,3 +222,26 @@ pub fn difference_in(domain: &Domain, these: &[State], those: &[State]) -> f64 {
     };
     these.iter().zip(those).map(one).fold(0.0, max_or_nan)
 }
+
+/// Radii from 0.15 to 1.5 `RADIUS`, most of them small, in a box that is periodic along x, where everything flies
+/// `along` it [m/s], and closed by walls elsewhere.
+pub fn wide_distribution(count: u32, edge: f64, along: f64) -> Setup {
+    let upper = vector(edge, edge, edge);
+    let rank = |number: u32| f64::from(number) / f64::from(count - 1);
+    let radii: Vec<f64> =
+        (0..count).map(|number| 1.5 * RADIUS * 10.0_f64.powf(-rank(number).powf(0.25))).collect();
+    let domain = Domain::periodic(Vector3::zero(), upper, [true, false, false]);
+    let mut random = random_stream(7);
+    let block = Cuboid { lower: Vector3::zero(), upper };
+    let centres = random_positions(&radii, &block, &domain, &[], &mut random).unwrap();
+    let falling = |(centre, radius): (Vector3, f64)| {
+        let mut inwards = (upper * 0.5 - centre) * (2.0 / edge);
+        inwards.x = along;
+        let mut particle = sphere(centre, inwards + gaussian_vector(&mut random) * 0.2, radius);
+        particle.angular_velocity = gaussian_vector(&mut random) * 200.0;
+        particle
+    };
+    let particles = centres.into_iter().zip(radii).map(falling).collect();
+    let walls = cube_of_walls(edge).split_off(2);
+    Setup { domain, walls, ..setup(particles, viscous_luding()) }
+}

@@ -185,7 +185,7 @@ fn groups(page: Page<'_>) -> Value {
 
 fn group_control(page: Page<'_>) -> Value {
     let cosine = vec![("displacement", vector()), ("period", quantity()), ("cycles", number())];
-    let rotation = vec![("point", vector()), ("axis", vector()), ("angular_velocity", quantity())];
+    let rotation = vec![("point", vector()), ("axis", direction()), ("angular_velocity", quantity())];
     let variants = [
         ("free", Vec::new(), &[][..]),
         ("fixed", Vec::new(), &[]),

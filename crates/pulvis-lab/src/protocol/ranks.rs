@@ -177,26 +177,34 @@ pub enum Following<'a> {
     Resumed(&'a Path),
 }
 
+/// How a rank has followed.
+#[derive(Debug)]
+pub enum Followed {
+    /// To the end of the run, or until the user stopped it.
+    ToTheEnd,
+    /// Until something failed that the leader tells.
+    UntilTold(RunError),
+}
+
 /// Follows the leader of a run until it ends. A true `stop` stops the run on all ranks.
 ///
 /// # Errors
-/// What the leader finds on its way, which it tells better; what only this rank finds. `Ok(Err(error))` is for errors that
-/// the leader knows of.
+/// What only this rank knows of, so that it has to tell.
 pub fn follow(
     following: Following<'_>,
     options: &RunOptions,
     exchange: &Arc<dyn Exchange>,
     stop: &AtomicBool,
-) -> Result<Result<(), RunError>, RunError> {
+) -> Result<Followed, RunError> {
     let followed = match following {
         Following::Scenario(scenario) => follow_from_start(scenario, options, exchange, stop),
         Following::Resumed(path) => follow_from_checkpoint(path, options, exchange, stop),
     };
     match followed {
-        Ok(()) => Ok(Ok(())),
+        Ok(()) => Ok(Followed::ToTheEnd),
         Err(error @ RunError::Ranks { .. }) => Err(error),
         Err(error) => match next_order(exchange.as_ref(), HAS_FAILED) {
-            Ok(END) => Ok(Err(error)),
+            Ok(END) => Ok(Followed::UntilTold(error)),
             // The leader goes on, or is lost: nobody else says what happened here.
             _ => Err(error),
         },

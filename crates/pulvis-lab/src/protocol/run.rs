@@ -13,12 +13,12 @@ use super::averages::Average;
 use super::check::stages;
 use super::checkpoint::{Found, ResultRecord, checkpoint_files, find};
 use super::disk::refuse_full_disk;
+use super::ending::Ending;
 use super::error::{PrepareError, RunError};
 use super::folder::{LIST, OutputFolder, RECORD};
 use super::measure::Measure;
 use super::ranks::Leader;
 use super::setup::prepare;
-use super::stage::Ending;
 use super::under_way::Run;
 use super::warnings::warnings;
 

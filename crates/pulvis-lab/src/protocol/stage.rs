@@ -6,6 +6,7 @@ use pulvis_input::scenario::{Crossing, Programs, Scenario, Stage, StopRules, Wal
 
 use super::cell::time_to_strain;
 use super::checkpoint::WatchRecord;
+use super::ending::Ending;
 use super::measure::Measure;
 use super::openings::Openings;
 use super::programs::elapsed;
@@ -22,65 +23,6 @@ const LOOKS_IN_A_ROW: u32 = 10;
 
 /// A sample cannot be found at rest after fewer steps.
 pub(super) const LEAST_STEPS_TO_REST: u64 = LOOK_EVERY * LOOKS_IN_A_ROW as u64;
-
-/// Why a stage ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// Its time was over.
-    Time,
-    /// The kinetic energy had fallen far enough below the elastic one.
-    AtRest,
-    /// The strain was reached.
-    Strain,
-    /// The stress was reached.
-    Stress,
-    /// The wall or the group had done its cycles.
-    Cycles,
-    /// Enough had passed an inlet or outlet.
-    Passed,
-    /// A column of the time series no longer drifted.
-    Steady,
-    /// The user stopped the run.
-    Interrupted,
-}
-
-impl Ending {
-    /// All endings, in the order of their numbers in checkpoints.
-    const ALL: [Self; 8] = [
-        Self::Time,
-        Self::AtRest,
-        Self::Strain,
-        Self::Stress,
-        Self::Cycles,
-        Self::Interrupted,
-        Self::Passed,
-        Self::Steady,
-    ];
-
-    /// Its number in checkpoints.
-    pub(super) fn number(self) -> u8 {
-        Self::ALL.iter().position(|ending| *ending == self).unwrap_or(0) as u8
-    }
-
-    /// The ending of a number.
-    pub(super) fn from_number(number: u8) -> Option<Self> {
-        Self::ALL.get(usize::from(number)).copied()
-    }
-
-    /// The ending in words.
-    pub const fn text(self) -> &'static str {
-        match self {
-            Self::Time => "time over",
-            Self::AtRest => "at rest",
-            Self::Strain => "strain reached",
-            Self::Stress => "stress reached",
-            Self::Cycles => "cycles done",
-            Self::Passed => "enough has passed",
-            Self::Steady => "steady",
-            Self::Interrupted => "interrupted",
-        }
-    }
-}
 
 /// What of a state somebody looks at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,6 +11,7 @@ use super::allow::limits;
 use super::cell::check_cell;
 use super::checkpoint::{Ancestor, Checkpoint, FindError, Found, RunRecord, find, of_run};
 use super::damping::refuse_overdamped;
+use super::ending::Ending;
 use super::error::PrepareError;
 use super::feasible::{check_feasible, start_stage};
 use super::frame::frame_of;
@@ -20,7 +21,6 @@ use super::particles::generate;
 use super::programs::{models_after, program_plans};
 use super::run::StageResult;
 use super::setup::{Origin, Prepared, StagePlan, drawn_walls, interactions, stages};
-use super::stage::Ending;
 use super::steady::check_steady;
 
 /// An interrupted run that can go on.

@@ -66,7 +66,8 @@ pub fn on_ranks(scenario: &Scenario, folder: &Path, ranks: usize) -> RunSummary 
                 let rank: Arc<dyn Exchange> = Arc::new(rank);
                 let options = RunOptions { exchange: Some(Arc::clone(&rank)), ..options(folder) };
                 let following = protocol::Following::Scenario(scenario);
-                protocol::follow(following, &options, &rank, &AtomicBool::new(false)).unwrap().unwrap();
+                let followed = protocol::follow(following, &options, &rank, &AtomicBool::new(false));
+                assert!(matches!(followed, Ok(protocol::Followed::ToTheEnd)), "{followed:?}");
             });
         }
         let options = RunOptions { exchange: Some(first), ..options(folder) };

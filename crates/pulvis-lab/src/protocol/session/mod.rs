@@ -7,6 +7,7 @@ use pulvis_core::{InstructionSet, Interactions, Simulation};
 use pulvis_input::scenario::Scenario;
 
 use super::checkpoint::{Ancestor, WatchRecord};
+use super::ending::Ending;
 use super::error::RunError;
 use super::explain::likely_cause;
 use super::measure::Measure;
@@ -14,7 +15,7 @@ use super::openings::Openings;
 use super::programs::update;
 use super::run::{StageResult, sensible_threads};
 use super::setup::{Prepared, StagePlan, prepare};
-use super::stage::{Ending, StageWatch};
+use super::stage::StageWatch;
 use super::switch::switch;
 use super::warnings::warnings;
 pub use edit::{EditError, MotionValue};

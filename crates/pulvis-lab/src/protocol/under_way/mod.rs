@@ -1,20 +1,19 @@
 //! A run under way: its stages and what it writes.
 
 mod checkpoints;
+mod last_files;
 
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use pulvis_core::{Interactions, Simulation, StepError};
 use pulvis_input::scenario::Scenario;
-use pulvis_io::checkpoint::write_text;
 use pulvis_io::table::TimeSeriesWriter;
 
-use super::averages::{self, AVERAGES, Average};
 use super::checkpoint::{Ancestor, Keeper, LATEST, PREVIOUS, stage_file};
+use super::ending::Ending;
 use super::error::RunError;
-use super::explain::{ALARM, AlarmReport, likely_cause};
+use super::explain::likely_cause;
 use super::fields::{FIELDS, fields};
 use super::folder::OutputFolder;
 use super::kept_rows::KeptRows;
@@ -24,11 +23,10 @@ use super::openings::Openings;
 use super::pace::{Due, Pace};
 use super::programs::update;
 use super::ranks::{Leader, look_after_steps, tell};
-use super::report::{self, Series};
 use super::run::{PictureOptions, Progress, RunOptions, RunSummary, StageResult, Watch, set_machine};
 use super::setup::{Prepared, StagePlan};
 use super::snapshots::Snapshots;
-use super::stage::{Ending, Look, StageWatch};
+use super::stage::{Look, StageWatch};
 use super::status::{RunPhase, STATUS, StatusFile};
 use super::switch::switch;
 
@@ -319,16 +317,6 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Writes the averages of what observers have seen.
-    fn averages(&mut self) -> Result<Vec<Average>, RunError> {
-        if self.scenario.observers.is_empty() {
-            return Ok(Vec::new());
-        }
-        let averages = averages::averages(self.scenario, self.measure.columns(), self.rows.rows());
-        averages::table(&averages)?.write(&self.output.file(AVERAGES)?)?;
-        Ok(averages)
-    }
-
     fn progress(
         &mut self,
         number: usize,
@@ -352,52 +340,5 @@ impl<'a> Run<'a> {
             energy_error: self.simulation.ledger().relative_error(),
             ending,
         }
-    }
-
-    /// Completes the files of a run that has failed, and shows the state in which it did, as far as that is possible:
-    /// what failed is the error that counts.
-    fn salvage(&mut self, error: &RunError) {
-        let (simulation, message) = (&self.simulation, error.to_string());
-        let report = match error {
-            RunError::Step { source, .. } => AlarmReport::new(simulation, source, &message),
-            RunError::Inlet { .. } => AlarmReport::of_sound_state(simulation, &[], &message),
-            _ => return,
-        };
-        let _ = self.output.file(ALARM).map(|file| write_text(&file, &report.to_text()));
-        let _ = self.frame();
-        let _ = self.writer.flush();
-        let _ = self.draw();
-    }
-
-    fn draw(&mut self) -> Result<Vec<PathBuf>, RunError> {
-        if !self.scenario.output.plots {
-            return Ok(Vec::new());
-        }
-        let series = Series { measure: &self.measure, rows: self.rows.rows() };
-        report::draw(self.scenario, &self.simulation, &series, self.pictures, &mut self.output)
-    }
-
-    fn finish(&mut self, interrupted: Option<StageResult>) -> Result<RunSummary, RunError> {
-        self.writer.flush()?;
-        let energy_error_max = self.rows.largest_error();
-        let averages = self.averages()?;
-        let pictures = self.draw()?;
-        if interrupted.is_none() {
-            self.end_checkpoint()?;
-        }
-        let can_be_resumed = interrupted.is_some() && self.keeper.plan().is_some();
-        Ok(RunSummary {
-            folder: self.output.path().to_owned(),
-            stages: self.results.iter().cloned().chain(interrupted).collect(),
-            particles: self.simulation.particles().len(),
-            steps: self.simulation.steps(),
-            steps_before: self.steps_before,
-            wall_clock: self.began.elapsed().as_secs_f64(),
-            energy_error: self.simulation.ledger().relative_error(),
-            energy_error_max,
-            averages,
-            pictures,
-            can_be_resumed,
-        })
     }
 }
