@@ -9,7 +9,7 @@ use pulvis_core::InstructionSet;
 use crate::failure::Failure;
 use crate::models::{ConventionChoice, LawChoice, model};
 use crate::workload::{bed, bidisperse, gas, tablet};
-use crate::{kernels, timing};
+use crate::{kernels, scaling, timing};
 
 /// Times Pulvis on the workloads that other codes were timed on.
 #[derive(Debug, Parser)]
@@ -128,6 +128,9 @@ enum Choice {
         #[arg(long, default_value = "")]
         only: String,
     },
+    /// How far ranks reach, on paper: surfaces of orders of cells, a model of the time of a step, and the messages of
+    /// up to 4096 virtual ranks.
+    Scaling(scaling::Options),
 }
 
 impl Run {
@@ -177,6 +180,10 @@ impl Arguments {
                 timing::run("bidisperse", bidisperse::setup(&plan, model)?, &run)
             }
             Choice::Kernels { only } => kernels::run(&only),
+            Choice::Scaling(options) => {
+                scaling::run(&options);
+                Ok(())
+            }
         }
     }
 }

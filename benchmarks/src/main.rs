@@ -8,6 +8,7 @@ mod kernels;
 mod models;
 mod observed;
 mod ranks;
+mod scaling;
 mod timing;
 mod workload;
 
