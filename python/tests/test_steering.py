@@ -43,6 +43,35 @@ def test_a_simulation_is_built_by_calls() -> None:
         ball_in_a_box(colour="red")
 
 
+def test_particles_start_as_arrays_say() -> None:
+    random = np.random.default_rng(1)
+    position = np.stack(np.meshgrid(*[np.arange(5) * 2.5e-3] * 3), axis=-1).reshape(-1, 3)
+    radius = random.uniform(0.8e-3, 1.2e-3, len(position))
+    velocity = random.normal(0, 0.1, (len(position), 3))
+    spin = random.normal(0, 10, (len(position), 3))
+    listed = {"kind": "list", "positions": position, "radii": radius, "velocities": velocity}
+    listed |= {"angular_velocities": spin, "materials": ["glass", "steel"] * 62 + ["glass"]}
+    simulation = pulvis.Simulation(
+        materials={"glass": {"density": 2500}, "steel": {"density": 7850}},
+        contacts={pair: pulvis.law("linear", k=1000) for pair in ("glass-glass", "glass-steel", "steel-steel")},
+        particles={"arrangement": listed},
+    )
+    particles = simulation.particles
+    assert np.array_equal(particles.position, position) and np.array_equal(particles.radius, radius)
+    assert np.array_equal(particles.velocity, velocity) and np.array_equal(particles.angular_velocity, spin)
+    density = np.where(np.arange(len(position)) % 2 == 0, 2500, 7850)
+    assert particles.mass == pytest.approx(density * 4 / 3 * np.pi * radius**3, rel=1e-12)
+    with pytest.raises(pulvis.InputError, match=r"radii: 124 values for 125 positions"):
+        pulvis.Simulation(
+            materials={"glass": {"density": 2500}},
+            contacts={"glass-glass": pulvis.law("linear", k=1000)},
+            particles={
+                "material": "glass",
+                "arrangement": {"kind": "list", "positions": position, "radii": radius[1:]},
+            },
+        )
+
+
 def test_positions_velocities_and_quantities_can_be_set(gas: dict[str, Any]) -> None:
     simulation = pulvis.Simulation(gas)
     simulation.advance(200)

@@ -2,6 +2,7 @@
 
 use super::domain::read_extent;
 use super::import::{FileReading, PointsError, PointsFormat, read_points};
+use super::listed::read_list;
 use super::materials::{Material, read_material_name};
 use crate::context::Reported;
 use crate::list::{List, Vector};
@@ -42,22 +43,45 @@ pub enum Arrangement {
         /// What stands in it; a quantity is given for all grains or for none.
         grains: Vec<Grain>,
     },
-    /// At these positions [m].
-    List(Vec<Vector3>),
+    /// As listed; a quantity is given for all grains or for none.
+    List(Vec<Grain>),
 }
 
-/// A particle of a file.
+impl Arrangement {
+    /// What a file or a list says of each particle; nothing where a rule arranges them.
+    pub fn grains(&self) -> &[Grain] {
+        match self {
+            Self::File { grains, .. } | Self::List(grains) => grains,
+            Self::Lattice(_) | Self::Random(_) | Self::Dense(_) | Self::Aggregate { .. } => &[],
+        }
+    }
+
+    /// Whether a quantity is given for each particle.
+    pub(super) fn gives<T>(&self, quantity: impl Fn(&Grain) -> Option<T>) -> bool {
+        !self.grains().is_empty() && self.grains().iter().all(|grain| quantity(grain).is_some())
+    }
+
+    /// Whether it tells the materials of its particles, so that the group has none.
+    pub(super) fn gives_materials(&self) -> bool {
+        match self {
+            Self::File { reading, .. } => reading.materials.is_some(),
+            _ => self.gives(|grain| grain.material),
+        }
+    }
+}
+
+/// A particle of a file or a list.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
     /// Position of the centre [m].
     pub position: Vector3,
-    /// Radius [m], if the file has them.
+    /// Radius [m], if it is given.
     pub radius: Option<f64>,
-    /// Velocity [m/s], if the file has them.
+    /// Velocity [m/s], if it is given.
     pub velocity: Option<Vector3>,
-    /// Angular velocity [rad/s], if the file has them.
+    /// Angular velocity [rad/s], if it is given.
     pub angular_velocity: Option<Vector3>,
-    /// Index of the material, if the file tells it.
+    /// Index of the material, if it is given.
     pub material: Option<usize>,
 }
 
@@ -80,9 +104,7 @@ pub(super) fn read_arrangement(
             centre.and_then(|centre| Ok(Arrangement::Aggregate { centre: centre.into(), growth: growth? }))
         }
         "file" => read_file(&mut table, materials, folder),
-        _ => table
-            .required("positions", List::of(Vector::of(Dimension::LENGTH)).at_least(1))
-            .map(|positions| Arrangement::List(positions.into_iter().map(Vector3::from).collect())),
+        _ => read_list(&mut table, materials).map(Arrangement::List),
     };
     table.finish();
     read

@@ -45,6 +45,7 @@ mod groups;
 mod import;
 mod inlets;
 mod limits;
+mod listed;
 mod materials;
 mod mesh_file;
 mod observers;

@@ -1,6 +1,6 @@
 //! Groups of particles.
 
-use super::arrangement::{Arrangement, Grain, MOST_PARTICLES, read_arrangement};
+use super::arrangement::{Arrangement, MOST_PARTICLES, read_arrangement};
 use super::columns::{ParticleColumn, read_columns};
 use super::materials::{Material, needs_density, read_material_with_density};
 use super::radius::read_radius;
@@ -20,11 +20,11 @@ use std::path::Path;
 /// Particles that have a material, a distribution of sizes and a start in common.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParticleGroup {
-    /// Index of the material, which has a density; of the first particle where a file tells them.
+    /// Index of the material, which has a density; of the first particle where a file or a list tells them.
     pub material: usize,
     /// Number of particles, at least 1.
     pub count: usize,
-    /// Radii; `None` where the file of the arrangement gives them.
+    /// Radii; `None` where the file or the list of the arrangement gives them.
     pub radius: Option<RadiusDistribution>,
     /// Where the particles start.
     pub arrangement: Arrangement,
@@ -37,27 +37,26 @@ pub struct ParticleGroup {
 impl ParticleGroup {
     /// Index of the material of a particle of the group.
     pub fn material_of(&self, number: usize) -> usize {
-        let grain = match &self.arrangement {
-            Arrangement::File { grains, .. } => grains.get(number),
-            _ => None,
-        };
-        grain.and_then(|grain| grain.material).unwrap_or(self.material)
+        self.arrangement.grains().get(number).and_then(|grain| grain.material).unwrap_or(self.material)
     }
 
     /// Number of particles of a material.
     pub fn count_of(&self, material: usize) -> usize {
-        match &self.arrangement {
-            Arrangement::File { grains, .. } => {
+        match self.arrangement.grains() {
+            [] if self.material == material => self.count,
+            [] => 0,
+            grains => {
                 grains.iter().filter(|grain| grain.material.unwrap_or(self.material) == material).count()
             }
-            _ if self.material == material => self.count,
-            _ => 0,
         }
     }
 
     /// Indices of the materials of all particles, each once, ascending.
     pub fn materials(&self) -> Vec<usize> {
-        let Arrangement::File { grains, .. } = &self.arrangement else { return vec![self.material] };
+        let grains = self.arrangement.grains();
+        if grains.is_empty() {
+            return vec![self.material];
+        }
         let mut materials: Vec<usize> =
             grains.iter().map(|grain| grain.material.unwrap_or(self.material)).collect();
         materials.sort_unstable();
@@ -69,11 +68,11 @@ impl ParticleGroup {
 /// Velocities at the start of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VelocityPlan {
-    /// Mean velocity [m/s]; zero where the file of the arrangement gives velocities.
+    /// Mean velocity [m/s]; zero where the file or the list of the arrangement gives velocities.
     pub mean: Vector3,
     /// What is added at random: Gaussian components; momentum and temperature are those of the group.
     pub random: GasVelocities,
-    /// Angular velocity of every particle [rad/s]; zero where the file of the arrangement gives them.
+    /// Angular velocity of every particle [rad/s]; zero where the file or the list of the arrangement gives them.
     pub angular_velocity: Vector3,
 }
 
@@ -154,9 +153,8 @@ fn read_group(
     if let (Ok(material), Ok(Some(radius))) = (material, &radius) {
         check_masses(&table, materials.get(material), radius)?;
     }
-    if let (Ok(material), Ok(None), Ok(Arrangement::File { grains, .. })) = (material, &radius, &arrangement)
-    {
-        check_grains(&table, materials, material, grains)?;
+    if let (Ok(material), Ok(None), Ok(arrangement)) = (material, &radius, &arrangement) {
+        check_grains(&table, materials, material, arrangement)?;
     }
     if let (Ok(Arrangement::Random(block)), Ok(count), Ok(Some(radius))) = (&arrangement, &count, &radius) {
         fitting_block(&table, block, *count, radius.limits().0)?;
@@ -180,22 +178,28 @@ pub(super) fn check_masses(
     }
 }
 
-/// Refuses particles of a file of which the engine cannot compute; those without a material of their own have that of the group.
+/// Refuses particles of a file or a list of which the engine cannot compute; those without a material of their own have that of the group.
 fn check_grains(
     table: &TableReader<'_>,
     materials: &[Material],
     material: usize,
-    grains: &[Grain],
+    arrangement: &Arrangement,
 ) -> Result<(), Reported> {
-    for (number, grain) in grains.iter().enumerate() {
+    let source = source_of(arrangement);
+    for (number, grain) in arrangement.grains().iter().enumerate() {
         let Some(radius) = grain.radius else { continue };
         let sphere = sphere(radius, materials.get(grain.material.unwrap_or(material)));
         if let Some(Problem::Rule { found, expected }) = unfit_for_numbers(&sphere) {
-            let found = format!("particle {} of the file: {found}", number + 1);
+            let found = format!("particle {} of the {source}: {found}", number + 1);
             return Err(table.refuse("arrangement", Problem::rule(found, expected)));
         }
     }
     Ok(())
+}
+
+/// What tells quantities of its particles, in words.
+fn source_of(arrangement: &Arrangement) -> &'static str {
+    if matches!(arrangement, Arrangement::List(_)) { "list" } else { "file" }
 }
 
 /// A particle of a radius [m]; what is wrong with a density is told elsewhere.
@@ -204,26 +208,28 @@ fn sphere(radius: f64, material: Option<&Material>) -> Sphere {
     Sphere { radius, mass: density.unwrap_or(1.0) * 4.0 / 3.0 * PI * elementary::powi(radius, 3) }
 }
 
-/// The material of a group, or of the first particle of its file; all that particles are made of have a density.
+/// The material of a group, or of the first particle of its file or list; all that particles are made of have a density.
 fn read_group_material(
     table: &mut TableReader<'_>,
     materials: &[Material],
     arrangement: Option<&Arrangement>,
 ) -> Result<usize, Reported> {
-    let Some(Arrangement::File { grains, reading, .. }) = arrangement.filter(
-        |arrangement| matches!(arrangement, Arrangement::File { reading, .. } if reading.materials.is_some()),
-    ) else {
+    let Some(arrangement) = arrangement.filter(|arrangement| arrangement.gives_materials()) else {
         return read_material_with_density(table, materials);
     };
     if table.value("material").is_some() {
-        let found = "the file of the arrangement gives the materials, as its key `materials` says";
+        let source = source_of(arrangement);
+        let found =
+            format!("the {source} of the arrangement gives the materials, as its key `materials` says");
         return Err(table.refuse("material", Problem::rule(found, "no `material`")));
     }
     // Those that no particle has need no density.
-    let known = reading.materials.iter().flat_map(|words| words.values().copied());
-    let used = known.filter(|&index| grains.iter().any(|grain| grain.material == Some(index)));
-    used.map(|index| needs_density(table, "arrangement", materials, index)).collect::<Result<Vec<_>, _>>()?;
-    Ok(grains.first().and_then(|grain| grain.material).unwrap_or(0))
+    let mut used: Vec<usize> = arrangement.grains().iter().filter_map(|grain| grain.material).collect();
+    used.sort_unstable();
+    used.dedup();
+    let known = used.iter().map(|&index| needs_density(table, "arrangement", materials, index));
+    known.collect::<Result<Vec<_>, _>>()?;
+    Ok(arrangement.grains().first().and_then(|grain| grain.material).unwrap_or(0))
 }
 
 /// The number of particles, which has to fit the arrangement.
@@ -242,7 +248,7 @@ fn fitting_count(
     };
     match arrangement {
         Arrangement::File { grains, .. } => listed("file", grains.len()),
-        Arrangement::List(positions) => listed("list", positions.len()),
+        Arrangement::List(grains) => listed("list", grains.len()),
         Arrangement::Lattice(lattice) => {
             let sites = lattice.site_count();
             match given {
@@ -267,19 +273,18 @@ fn fitting_count(
     }
 }
 
-/// The radii, which stand either here or in the file of the arrangement.
+/// The radii, which stand either here or in the file or the list of the arrangement.
 fn fitting_radius(
     table: &TableReader<'_>,
     arrangement: &Arrangement,
     radius: Option<RadiusDistribution>,
 ) -> Result<Option<RadiusDistribution>, Reported> {
-    let in_file = match arrangement {
-        Arrangement::File { grains, .. } => grains.iter().all(|grain| grain.radius.is_some()),
-        _ => false,
-    };
-    match (&radius, in_file) {
+    match (&radius, arrangement.gives(|grain| grain.radius)) {
         (Some(_), true) => {
-            let found = "the file of the arrangement has a column `radius`";
+            let found = match arrangement {
+                Arrangement::List(_) => "the list of the arrangement has `radii`",
+                _ => "the file of the arrangement has a column `radius`",
+            };
             Err(table.refuse("radius", Problem::rule(found, "no [particles.radius]")))
         }
         (None, false) => {
@@ -322,30 +327,34 @@ fn read_velocity(
     let zero_momentum = table.or("zero_momentum", Boolean, false);
     let exact_temperature = table.or("exact_temperature", Boolean, false);
     let spin = table.optional("spin", Vector::of(Dimension::RATE));
-    let (in_file, spin_in_file) = match arrangement {
-        Some(Arrangement::File { grains, .. }) => (
-            grains.iter().all(|grain| grain.velocity.is_some()),
-            grains.iter().all(|grain| grain.angular_velocity.is_some()),
-        ),
-        _ => (false, false),
-    };
+    let gives_velocity = arrangement.is_some_and(|one| one.gives(|grain| grain.velocity));
+    let gives_spin = arrangement.is_some_and(|one| one.gives(|grain| grain.angular_velocity));
+    let is_list = matches!(arrangement, Some(Arrangement::List(_)));
     let spin = match spin {
-        Ok(Some(_)) if spin_in_file => {
-            let found = "the file of the arrangement has the columns omegax, omegay, omegaz";
+        Ok(Some(_)) if gives_spin => {
+            let found = if is_list {
+                "the list of the arrangement has `angular_velocities`"
+            } else {
+                "the file of the arrangement has the columns omegax, omegay, omegaz"
+            };
             Err(table.refuse("spin", Problem::rule(found, "no `spin`")))
         }
         spin => spin,
     };
     let refused = |key: &str| {
-        let found = "the file of the arrangement has the columns vx, vy, vz";
+        let found = if is_list {
+            "the list of the arrangement has `velocities`"
+        } else {
+            "the file of the arrangement has the columns vx, vy, vz"
+        };
         table.refuse(key, Problem::rule(found, format!("no `{key}`")))
     };
     let mean = match mean {
-        Ok(Some(_)) if in_file => Err(refused("mean")),
+        Ok(Some(_)) if gives_velocity => Err(refused("mean")),
         mean => mean,
     };
     let standard_deviation = match standard_deviation {
-        Ok(Some(_)) if in_file => Err(refused("standard_deviation")),
+        Ok(Some(_)) if gives_velocity => Err(refused("standard_deviation")),
         standard_deviation => standard_deviation,
     };
     let random = standard_deviation.and_then(|standard_deviation| {

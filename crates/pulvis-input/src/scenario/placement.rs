@@ -61,15 +61,12 @@ fn points(group: &ParticleGroup) -> Vec<Point> {
             let sites = sites.filter(|number| *number < group.count);
             sites.map(|number| centre(number, lattice.site(number))).collect()
         }
-        Arrangement::File { grains, .. } => {
+        Arrangement::File { grains, .. } | Arrangement::List(grains) => {
             grains.iter().enumerate().map(|(number, grain)| centre(number, grain.position)).collect()
         }
         // Where its particles are shows when it has grown.
         Arrangement::Aggregate { centre: at, .. } => {
             vec![Point { what: "the centre of the aggregate,".to_owned(), at: *at, slack: 0.0 }]
-        }
-        Arrangement::List(positions) => {
-            positions.iter().enumerate().map(|(number, at)| centre(number, *at)).collect()
         }
     }
 }

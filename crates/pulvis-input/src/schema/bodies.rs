@@ -62,6 +62,13 @@ fn arrangement(page: Page<'_>) -> Value {
         ("time_unit", quantity()),
         ("materials", either([boolean(), named(text())])),
     ];
+    let listed = vec![
+        ("positions", list(vector())),
+        ("radii", list(quantity())),
+        ("velocities", list(vector())),
+        ("angular_velocities", list(vector())),
+        ("materials", list(text())),
+    ];
     page.variants(
         "kind",
         None,
@@ -75,7 +82,7 @@ fn arrangement(page: Page<'_>) -> Value {
                 &["centre", "growth"],
             ),
             ("file", file, &["path"]),
-            ("list", vec![("positions", list(vector()))], &["positions"]),
+            ("list", listed, &["positions"]),
         ],
     )
 }

@@ -140,7 +140,7 @@ fn typical(scenario: &Scenario, group: &ParticleGroup) -> Particle {
             let (smallest, largest) = distribution.limits();
             0.5 * (smallest + largest)
         }
-        (None, Arrangement::File { grains, .. }) => {
+        (None, Arrangement::File { grains, .. } | Arrangement::List(grains)) => {
             let radii = || grains.iter().filter_map(|grain| grain.radius);
             radii().sum::<f64>() / radii().count().max(1) as f64
         }

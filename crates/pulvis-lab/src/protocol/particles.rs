@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use pulvis_core::{Domain, MaterialIndex, NamedColumn, Particle};
 use pulvis_input::Problem;
-use pulvis_input::scenario::{Arrangement, Grain, ParticleColumn, ParticleGroup, Scenario};
+use pulvis_input::scenario::{Arrangement, ParticleColumn, ParticleGroup, Scenario};
 use pulvis_math::{Vector3, elementary};
 use pulvis_packing::{Random, dense_positions, random_positions, random_stream};
 
@@ -57,7 +57,7 @@ fn radii(
     random: &mut Random,
 ) -> Result<Vec<f64>, PrepareError> {
     let Some(distribution) = &group.radius else {
-        return Ok(grains(group).iter().filter_map(|grain| grain.radius).collect());
+        return Ok(group.arrangement.grains().iter().filter_map(|grain| grain.radius).collect());
     };
     distribution.draw(group.count, random).map_err(|invalid| {
         let path = format!("particles[{place}].radius.{}", invalid.parameter);
@@ -103,27 +103,20 @@ fn centres(
             let positions = growth.aggregate(radii, random).into_iter();
             Ok(positions.map(|position| *centre + position).collect())
         }
-        Arrangement::File { grains, .. } => Ok(grains.iter().map(|grain| grain.position).collect()),
-        Arrangement::List(positions) => Ok(positions.clone()),
-    }
-}
-
-/// What the file of the arrangement says, if there is one.
-fn grains(group: &ParticleGroup) -> &[Grain] {
-    match &group.arrangement {
-        Arrangement::File { grains, .. } => grains,
-        _ => &[],
+        Arrangement::File { grains, .. } | Arrangement::List(grains) => {
+            Ok(grains.iter().map(|grain| grain.position).collect())
+        }
     }
 }
 
 /// The velocity of a particle before anything random is added.
 fn mean_velocity(group: &ParticleGroup, number: usize) -> Vector3 {
-    let from_file = grains(group).get(number).and_then(|grain| grain.velocity);
-    from_file.unwrap_or(Vector3::zero()) + group.velocity.mean
+    let given = group.arrangement.grains().get(number).and_then(|grain| grain.velocity);
+    given.unwrap_or(Vector3::zero()) + group.velocity.mean
 }
 
 /// The angular velocity of a particle.
 fn angular_velocity(group: &ParticleGroup, number: usize) -> Vector3 {
-    let from_file = grains(group).get(number).and_then(|grain| grain.angular_velocity);
-    from_file.unwrap_or(Vector3::zero()) + group.velocity.angular_velocity
+    let given = group.arrangement.grains().get(number).and_then(|grain| grain.angular_velocity);
+    given.unwrap_or(Vector3::zero()) + group.velocity.angular_velocity
 }

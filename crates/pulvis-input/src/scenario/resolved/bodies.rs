@@ -2,8 +2,8 @@
 
 use super::writer::{Writer, key, list, number, quantity, text, vector};
 use crate::scenario::{
-    Arrangement, BoxFace, Cuboid, FileReading, GasVelocities, Growth, ParticleGroup, RadiusDistribution,
-    Scenario, VelocityPlan, Wall, WallShape,
+    Arrangement, BoxFace, Cuboid, FileReading, GasVelocities, Grain, Growth, ParticleGroup,
+    RadiusDistribution, Scenario, VelocityPlan, Wall, WallShape,
 };
 use pulvis_boundary::{Disk, PlaneWithHole};
 use pulvis_math::Dimension;
@@ -13,9 +13,8 @@ impl Scenario {
     pub(super) fn write_particles(&self, writer: &mut Writer) {
         for group in &self.particles {
             writer.item("particles");
-            // Where the file tells the materials, the group has none.
-            if !matches!(&group.arrangement, Arrangement::File { reading, .. } if reading.materials.is_some())
-            {
+            // Where the arrangement tells the materials, the group has none.
+            if !group.arrangement.gives_materials() {
                 writer.key("material", self.material_text(group.material));
             }
             if !matches!(group.arrangement, Arrangement::File { .. } | Arrangement::List(_)) {
@@ -63,10 +62,32 @@ impl Scenario {
                 writer.key("growth", text(name));
             }
             Arrangement::File { path, reading, grains: _ } => self.write_file(writer, path, reading),
-            Arrangement::List(positions) => {
-                writer.key("kind", text("list"));
-                writer.key("positions", list(positions.iter().map(|at| vector(*at, Dimension::LENGTH))));
-            }
+            Arrangement::List(grains) => self.write_grains(writer, grains),
+        }
+    }
+
+    fn write_grains(&self, writer: &mut Writer, grains: &[Grain]) {
+        fn given<'g, T>(
+            grains: &'g [Grain],
+            quantity: impl Fn(&Grain) -> Option<T> + 'g,
+        ) -> impl Iterator<Item = T> + 'g {
+            grains.iter().filter_map(move |grain| quantity(grain))
+        }
+        writer.key("kind", text("list"));
+        writer.key("positions", list(grains.iter().map(|grain| vector(grain.position, Dimension::LENGTH))));
+        let radii = given(grains, |grain| grain.radius).map(|radius| quantity(radius, Dimension::LENGTH));
+        let velocities =
+            given(grains, |grain| grain.velocity).map(|speed| vector(speed, Dimension::VELOCITY));
+        let spins = given(grains, |grain| grain.angular_velocity).map(|spin| vector(spin, Dimension::RATE));
+        let materials = given(grains, |grain| grain.material).map(|index| self.material_text(index));
+        let lists: [(&str, Vec<String>); 4] = [
+            ("radii", radii.collect()),
+            ("velocities", velocities.collect()),
+            ("angular_velocities", spins.collect()),
+            ("materials", materials.collect()),
+        ];
+        for (key, values) in lists.into_iter().filter(|(_, values)| !values.is_empty()) {
+            writer.key(key, list(values));
         }
     }
 
@@ -227,21 +248,14 @@ pub(in crate::scenario) fn write_radius(writer: &mut Writer, radius: &RadiusDist
 }
 
 fn write_velocity(writer: &mut Writer, velocity: &VelocityPlan, group: &ParticleGroup) {
-    let (in_file, spin_in_file) = match &group.arrangement {
-        Arrangement::File { grains, .. } => (
-            grains.iter().all(|grain| grain.velocity.is_some()),
-            grains.iter().all(|grain| grain.angular_velocity.is_some()),
-        ),
-        _ => (false, false),
-    };
-    if !in_file {
+    if !group.arrangement.gives(|grain| grain.velocity) {
         writer.key("mean", vector(velocity.mean, Dimension::VELOCITY));
         let GasVelocities { standard_deviation, zero_momentum, exact_temperature } = velocity.random;
         writer.key("standard_deviation", quantity(standard_deviation, Dimension::VELOCITY));
         writer.key("zero_momentum", zero_momentum.to_string());
         writer.key("exact_temperature", exact_temperature.to_string());
     }
-    if !spin_in_file {
+    if !group.arrangement.gives(|grain| grain.angular_velocity) {
         writer.key("spin", vector(velocity.angular_velocity, Dimension::RATE));
     }
 }
