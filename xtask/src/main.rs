@@ -32,8 +32,8 @@ usage: cargo xtask <task>
                        random paths (half an hour)
   soak [MINUTES]       a driven bed for 10 minutes or as long as told: memory, ledger, contacts against brute force
   python               the Python package: lints, wheel, and its tests in an environment of its own (minutes: it builds the engine)
-  mpi                  runs on processes of Open MPI and MPICH: the files of one process, also after kills (minutes: it builds the
-                       program with each)
+  mpi [KILLS]          runs on processes of Open MPI and MPICH: the files of one process, also after 4 kills at random moments, or as
+                       many as told (minutes: it builds the program with each)
   browser              the page of `pulvis view` in Chromium without a window, where Node.js and Chromium are (some minutes)
   ci                   everything that must hold before a change is merged
   experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
@@ -58,7 +58,8 @@ fn main() -> ExitCode {
         ["soak"] => tests::soak("10"),
         ["soak", minutes] => tests::soak(minutes),
         ["python"] => python::run_all(),
-        ["mpi"] => mpi::run_all(),
+        ["mpi"] => mpi::run_all("4"),
+        ["mpi", kills] => mpi::run_all(kills),
         ["browser"] => browser::run_all(),
         ["ci"] => ci::run_all(),
         ["experiments"] => experiments::run(None),

@@ -34,8 +34,9 @@ const PACKAGES: [&str; 5] = ["libopenmpi-dev", "openmpi-bin", "libmpich-dev", "m
 const LONGEST: Duration = Duration::from_secs(300);
 const LONGEST_END: Duration = Duration::from_secs(60);
 
-/// Builds the program with each library that is there, and runs it on one to four processes.
-pub fn run_all() -> Outcome {
+/// Builds the program with each library that is there, and runs it on one to four processes; kills one of them so many times.
+pub fn run_all(kills: &str) -> Outcome {
+    let kills = kills.parse().map_err(|_| format!("`{kills}` is no number of kills"))?;
     let is_there = |library: &&Library| {
         let [compiler, launcher] = [library.compiler, library.launcher];
         works(Command::new(compiler).arg("--version")) && works(Command::new(launcher).arg("--version"))
@@ -50,7 +51,7 @@ pub fn run_all() -> Outcome {
     }
     for library in &LIBRARIES {
         if is_there(&library) {
-            library.check().map_err(|error| format!("{}: {error}", library.name))?;
+            library.check(kills).map_err(|error| format!("{}: {error}", library.name))?;
         } else {
             println!(
                 "skipped: there is no {} here ({}, {})",
@@ -64,7 +65,7 @@ pub fn run_all() -> Outcome {
 type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 impl Library {
-    fn check(&self) -> Outcome {
+    fn check(&self, kills: u32) -> Outcome {
         let program = self.build()?;
         let folder = scratch(&format!("mpi-{}", self.compiler))?;
         let alone = folder.join("alone");
@@ -80,8 +81,13 @@ impl Library {
         }
         self.stop_and_go_on(&program, &folder.join("stopped"), &expected)?;
         self.kill_and_go_on(&program, &folder.join("killed"), &expected)?;
+        self.kill_at_random(&program, &folder.join("random"), &expected, kills)?;
         self.refuse(&program, &folder)?;
-        println!("{}: the same files on 1 to 4 processes, after SIGTERM and after a kill", self.name);
+        println!(
+            "{}: the same files on 1 to 4 processes, after SIGTERM and after {} kills",
+            self.name,
+            kills + 1
+        );
         Ok(())
     }
 
@@ -136,6 +142,51 @@ impl Library {
         compare(&files(place)?, expected, "killed on 2 processes, gone on with 4")
     }
 
+    /// Any process is killed at any moment of runs on two to four: with what others go on with, all end as if nothing had been.
+    fn kill_at_random(&self, program: &Path, place: &Path, expected: &Files, kills: u32) -> Outcome {
+        if !Path::new("/proc/self/exe").exists() {
+            println!("skipped: kills at random, this system does not tell its processes in /proc");
+            return Ok(());
+        }
+        let mut random = Random(0x9e37_79b9_7f4a_7c15);
+        let (mut run_number, mut killed) = (0, 0);
+        while killed < kills {
+            let folder = place.join(run_number.to_string());
+            let is_begun = folder.join("run.toml").exists();
+            let ranks = 2 + random.below(3) as usize;
+            let mut child = if is_begun {
+                self.start(program, ranks, &["run", "--resume"], &[folder.clone()])?
+            } else {
+                std::fs::create_dir_all(place).map_err(|error| error.to_string())?;
+                let paths = [scenario(), "--force".into(), "--output".into(), folder.clone()];
+                self.start(program, ranks, &["run"], &paths)?
+            };
+            std::thread::sleep(Duration::from_millis(random.below(3000)));
+            let processes = processes_of(program);
+            if !processes.is_empty() {
+                let process = &processes[random.below(processes.len() as u64) as usize];
+                if works(Command::new("kill").args(["-KILL", process])) {
+                    killed += 1;
+                }
+            }
+            let code = wait(&mut child, LONGEST_END)?;
+            // It may have been at its end already.
+            let found = if folder.exists() { files(&folder)? } else { Files::new() };
+            if found == *expected {
+                run_number += 1;
+            } else if code == 0 {
+                compare(&found, expected, &format!("after {killed} kills"))?;
+            }
+        }
+        let folder = place.join(run_number.to_string());
+        if folder.join("run.toml").exists() {
+            let mut child = self.start(program, 3, &["run", "--resume"], &[folder.clone()])?;
+            same(wait(&mut child, LONGEST)?, 0, "the last run that went on")?;
+            compare(&files(&folder)?, expected, &format!("after {killed} kills"))?;
+        }
+        Ok(())
+    }
+
     /// A wrong file is refused once, with exit code 2.
     fn refuse(&self, program: &Path, folder: &Path) -> Outcome {
         let wrong = folder.join("wrong.toml");
@@ -143,6 +194,29 @@ impl Library {
         let mut child = self.start(program, 3, &["run"], &[wrong])?;
         same(wait(&mut child, LONGEST_END)?, 2, "a wrong file")
     }
+}
+
+/// Numbers at random, the same each time (Marsaglia 2003, Journal of Statistical Software 8, 14).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, end: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0 % end
+    }
+}
+
+/// The processes that run this program, where the system tells.
+fn processes_of(program: &Path) -> Vec<String> {
+    let Ok(entries) = std::fs::read_dir("/proc") else { return Vec::new() };
+    let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
+    let runs = |name: &String| {
+        let target = std::fs::read_link(Path::new("/proc").join(name).join("exe"));
+        name.bytes().all(|byte| byte.is_ascii_digit()) && target.is_ok_and(|target| target == program)
+    };
+    names.filter(runs).collect()
 }
 
 fn scenario() -> PathBuf {
