@@ -4,6 +4,7 @@
 //! new list of candidates, time moves by synchronised velocity-Verlet, and an energy ledger closes
 //! over it all. Nothing here knows files.
 
+mod chunk_tree;
 mod columns;
 mod contacts;
 mod counting_sort;

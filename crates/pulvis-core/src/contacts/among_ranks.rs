@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use pulvis_contact::ContactEnergies;
 use pulvis_math::F64Array;
 use pulvis_parallel::exchange::{ExchangeError, Message};
 
@@ -10,9 +9,9 @@ use super::Interactions;
 use super::block::{ContactGroup, LaneIndices, Partner, WIDTH};
 use super::chunk::{Approach, Chunk};
 use super::table::ContactTable;
-use super::totals::{ChunkTotals, ContactTotals};
 use crate::columns::NamedColumn;
-use crate::ranks::message::{Numbers, tell_vector};
+use crate::ranks::halo::HaloRows;
+use crate::ranks::message::Numbers;
 use crate::walls::WallForce;
 
 type Heard = Result<(), ExchangeError>;
@@ -20,8 +19,8 @@ type Heard = Result<(), ExchangeError>;
 /// The halos of a rank and of others, as far as they concern each other; see [`HaloPlan`](crate::ranks::halo::HaloPlan).
 #[derive(Debug, Default)]
 pub(crate) struct HaloParts {
-    pub(crate) rows_to: Vec<(usize, Vec<u32>)>,
-    pub(crate) rows_from: Vec<(usize, Vec<u32>)>,
+    pub(crate) rows_to: Vec<HaloRows>,
+    pub(crate) rows_from: Vec<HaloRows>,
     pub(crate) slots_to: Vec<(usize, Vec<Range<usize>>)>,
     pub(crate) slots_from: Vec<(usize, Range<usize>)>,
 }
@@ -88,56 +87,21 @@ impl ContactTable {
             }
             rows.sort_unstable();
             rows.dedup();
+            let chunk_of = |row: &u32| self.chunk_of(*row) as u32;
+            let mut chunks: Vec<u32> = rows.iter().map(chunk_of).collect();
+            chunks.dedup();
+            let rows = HaloRows { rank, rows, chunks };
             if let (Some(first), Some(last)) = (slots.first(), slots.last()) {
                 if rank < own_rank {
                     parts.slots_from.push((rank, first.start..last.end));
-                    parts.rows_to.push((rank, rows));
+                    parts.rows_to.push(rows);
                 } else {
                     parts.slots_to.push((rank, slots));
-                    parts.rows_from.push((rank, rows));
+                    parts.rows_from.push(rows);
                 }
             }
         }
         parts
-    }
-
-    /// Tells what a chunk of this rank has come to in the last pass.
-    pub(crate) fn tell_totals(&self, number: usize, observed: bool, message: &mut Message) {
-        let ChunkTotals { energies, rate_squared, wall_forces, observed: totals } =
-            &self.chunks()[number].totals;
-        message.extend(energies.accounts().map(|(_, energy)| energy));
-        message.extend([*rate_squared, wall_forces.len() as f64]);
-        for WallForce { force, torque } in wall_forces {
-            tell_vector(*force, message);
-            message.push(*torque);
-        }
-        if observed {
-            let ContactTotals { pairs, at_walls, overlap_max, virial } = totals;
-            message.extend([*pairs, *at_walls, *overlap_max]);
-            message.extend(virial.as_flattened());
-        }
-    }
-
-    /// Takes in what a chunk of another rank has come to.
-    ///
-    /// # Errors
-    /// The message is damaged.
-    pub(crate) fn hear_totals(&mut self, number: usize, observed: bool, numbers: &mut Numbers<'_>) -> Heard {
-        let totals = &mut self.chunks_mut()[number].totals;
-        totals.energies = ContactEnergies::from_accounts(|_| numbers.next())?;
-        totals.rate_squared = numbers.next()?;
-        let walls = numbers.next_index()?;
-        totals.wall_forces.resize(walls, WallForce::default());
-        for force in &mut totals.wall_forces {
-            *force = WallForce { force: numbers.next_vector()?, torque: numbers.next()? };
-        }
-        if observed {
-            let [pairs, at_walls, overlap_max] = [numbers.next()?, numbers.next()?, numbers.next()?];
-            let mut virial = [[0.0; 3]; 3];
-            virial.as_flattened_mut().copy_from_slice(numbers.take(9)?);
-            totals.observed = ContactTotals { pairs, at_walls, overlap_max, virial };
-        }
-        Ok(())
     }
 
     /// Tells all contacts of a chunk.

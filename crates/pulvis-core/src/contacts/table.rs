@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use pulvis_contact::ContactEnergies;
 use pulvis_math::{InstructionSet, max_or_nan};
 use pulvis_parallel::hand_over::HandOver;
 
@@ -13,13 +12,12 @@ use super::force_pass::{ForcePass, Halos, Sweep};
 use super::listing::{Listing, Sources};
 use super::rebuild::MemoryStore;
 use super::sums::Sums;
-use super::totals::ContactTotals;
 use super::view::{Deep, Views};
 use crate::neighbours::{CellGrid, Moved, Skin};
 use crate::particles::{ForceTorque, MaterialIndex, Particles};
 use crate::shared::Shared;
 use crate::thread_pool::ThreadPool;
-use crate::walls::{Wall, WallForce, WallNow};
+use crate::walls::{Wall, WallNow};
 use pulvis_boundary::{Images, UpperTriangular};
 
 /// All neighbour pairs, and the memory of their contacts.
@@ -40,8 +38,6 @@ pub(crate) struct ContactTable {
     awaiting: Vec<usize>,
     /// Which chunks are complete.
     hand_over: HandOver,
-    /// The totals of an imported state, until forces are computed.
-    restored: Option<ContactTotals>,
     /// Scratch: one for each worker of the pool.
     sums: Vec<Sums>,
     /// Scratch: one for each worker of the pool.
@@ -92,6 +88,12 @@ impl ContactTable {
     /// Sets how many pairs are in the lists of other ranks.
     pub(crate) fn set_candidates_elsewhere(&mut self, pairs: usize) {
         self.candidates_elsewhere = pairs;
+    }
+
+    /// The number of the chunk that has a row.
+    pub(crate) fn chunk_of(&self, row: u32) -> usize {
+        // All but the last have the same length.
+        row as usize / self.chunks.first().map_or(1, |chunk| chunk.rows.len().max(1))
     }
 
     /// Number of rows.
@@ -237,7 +239,6 @@ impl ContactTable {
         finish: impl Fn(usize, Range<usize>, &mut [ForceTorque]) + Sync,
     ) -> Result<(), E> {
         let Range { start: first, end } = self.own;
-        self.restored = None;
         self.sums.resize_with(pool.threads(), Sums::default);
         self.hand_over.begin(pool.threads());
         let pass = ForcePass {
@@ -264,42 +265,6 @@ impl ContactTable {
             unsafe { pass.finish_awaiting(self.awaiting[number]) };
         });
         Ok(())
-    }
-
-    /// Sums over all contacts, chunk by chunk: the same for any number of threads and ranks.
-    pub(crate) fn totals(&self) -> ContactTotals {
-        if let Some(restored) = self.restored {
-            return restored;
-        }
-        let mut sum = ContactTotals::default();
-        self.chunks.iter().for_each(|chunk| sum += chunk.totals.observed);
-        sum
-    }
-
-    /// Sets the totals of an imported state, which were summed when its forces were computed.
-    pub(crate) fn restore_totals(&mut self, totals: ContactTotals) {
-        self.restored = Some(totals);
-    }
-
-    /// The largest k/m_r of all contacts whose law does not bound its stiffness in the last pass [1/s²].
-    pub(crate) fn highest_rate_squared(&self) -> f64 {
-        self.chunks.iter().map(|chunk| chunk.totals.rate_squared).fold(0.0, max_or_nan)
-    }
-
-    /// The sum of all contacts' energies, chunk by chunk: the same for any number of threads and ranks.
-    pub(crate) fn energies(&self) -> ContactEnergies {
-        let mut sum = ContactEnergies::default();
-        self.chunks.iter().for_each(|chunk| sum += chunk.totals.energies);
-        sum
-    }
-
-    /// Adds the force and torque of every wall on the particles to its entry in `forces`.
-    pub(crate) fn add_wall_forces(&self, forces: &mut [WallForce]) {
-        for chunk in &self.chunks {
-            for (sum, &force) in forces.iter_mut().zip(&chunk.totals.wall_forces) {
-                *sum += force;
-            }
-        }
     }
 
     /// The candidates that may overlap by more than `least` [m]; and others.

@@ -37,8 +37,8 @@ impl AddAssign for ContactTotals {
     }
 }
 
-/// What the contacts of a chunk come to in a pass. Sums over all contacts are taken over chunks, in their order: the same
-/// for any number of threads, and of ranks, which tell each other these.
+/// What the contacts of a chunk come to in a pass. Sums over all contacts are taken over chunks, along a
+/// [tree](crate::chunk_tree): the same for any number of threads and of ranks.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ChunkTotals {
     /// Energies.

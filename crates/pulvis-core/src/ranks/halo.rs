@@ -10,15 +10,26 @@ use super::message::{Numbers, tell_vector};
 use crate::contacts::{HaloParts, KinematicColumns};
 use crate::particles::ForceTorque;
 use crate::shared::Shared;
+use crate::simulation::Outcome;
+
+/// Rows that are told to another rank, or heard from it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct HaloRows {
+    pub(crate) rank: usize,
+    /// Ascending.
+    pub(crate) rows: Vec<u32>,
+    /// The chunks that have them: how far their rows have moved is told, too.
+    pub(crate) chunks: Vec<u32>,
+}
 
 /// Which rows and slots go to which rank. A chunk has contacts with rows of later chunks: the rows that loops read come
 /// from higher ranks, and what contacts add to them goes back there.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct HaloPlan {
-    /// Rows of this rank that lower ones read, ascending.
-    rows_to: Vec<(usize, Vec<u32>)>,
+    /// Rows of this rank that lower ones read.
+    rows_to: Vec<HaloRows>,
     /// Rows of higher ranks that this one reads.
-    rows_from: Vec<(usize, Vec<u32>)>,
+    rows_from: Vec<HaloRows>,
     /// Slots of this rank's halos that lie in the rows of a higher one.
     slots_to: Vec<(usize, Vec<Range<usize>>)>,
     /// Slots of the halos of a lower rank that lie in the rows of this one.
@@ -36,22 +47,22 @@ impl HaloPlan {
 
     /// Rows that this rank reads of others [1].
     pub(crate) fn rows_read(&self) -> usize {
-        self.rows_from.iter().map(|(_, rows)| rows.len()).sum()
+        self.rows_from.iter().map(|part| part.rows.len()).sum()
     }
 
     /// As many outgoing messages as there are ranks to send to, empty.
-    fn begin<T>(outgoing: &mut Vec<(usize, Message)>, to: &[(usize, T)]) {
+    fn begin(outgoing: &mut Vec<(usize, Message)>, to: impl ExactSizeIterator<Item = usize>) {
         outgoing.resize_with(to.len(), Default::default);
-        for ((rank, message), (to, _)) in outgoing.iter_mut().zip(to) {
-            *rank = *to;
+        for ((rank, message), to) in outgoing.iter_mut().zip(to) {
+            *rank = to;
             message.clear();
         }
     }
 }
 
 impl Ranks {
-    /// Tells lower ranks the rows that they read, and hears those of higher ones. `turning` tells whether predicted angular
-    /// velocities are read.
+    /// Tells lower ranks the rows that they read, and how far those of their chunks have moved; hears both of higher ranks.
+    /// `turning` tells whether predicted angular velocities are read.
     ///
     /// # Errors
     /// A rank is lost.
@@ -59,6 +70,7 @@ impl Ranks {
         &mut self,
         moving: KinematicColumns<'_>,
         turning: bool,
+        outcomes: &mut [Outcome],
     ) -> Result<(), ExchangeError> {
         let KinematicColumns {
             position, velocity_mid, velocity, angular_velocity_mid, angular_velocity, ..
@@ -66,8 +78,9 @@ impl Ranks {
         let columns = [position, velocity_mid, velocity, angular_velocity_mid, angular_velocity];
         let columns = &columns[..if turning { 5 } else { 4 }];
         let mut outgoing = std::mem::take(&mut self.halo.outgoing);
-        HaloPlan::begin(&mut outgoing, &self.halo.rows_to);
-        for ((_, message), (_, rows)) in outgoing.iter_mut().zip(&self.halo.rows_to) {
+        HaloPlan::begin(&mut outgoing, self.halo.rows_to.iter().map(|part| part.rank));
+        for ((_, message), HaloRows { rows, chunks, .. }) in outgoing.iter_mut().zip(&self.halo.rows_to) {
+            message.extend(chunks.iter().map(|&chunk| outcomes[chunk as usize].moved.longest));
             for &row in rows {
                 for column in columns {
                     // SAFETY: a row of this simulation; no thread is at work.
@@ -76,9 +89,12 @@ impl Ranks {
             }
         }
         let plan = std::mem::take(&mut self.halo.rows_from);
-        let from: Vec<usize> = plan.iter().map(|(rank, _)| *rank).collect();
-        for (message, (_, rows)) in self.swap(&outgoing, &from)?.iter().zip(&plan) {
+        let from: Vec<usize> = plan.iter().map(|part| part.rank).collect();
+        for (message, HaloRows { rows, chunks, .. }) in self.swap(&outgoing, &from)?.iter().zip(&plan) {
             let mut numbers = Numbers::of(message);
+            for &chunk in chunks {
+                outcomes[chunk as usize].moved.longest = numbers.next()?;
+            }
             for &row in rows {
                 for column in columns {
                     // SAFETY: as above.
@@ -101,7 +117,7 @@ impl Ranks {
         first_slot: usize,
     ) -> Result<(), ExchangeError> {
         let mut outgoing = std::mem::take(&mut self.halo.outgoing);
-        HaloPlan::begin(&mut outgoing, &self.halo.slots_to);
+        HaloPlan::begin(&mut outgoing, self.halo.slots_to.iter().map(|(rank, _)| *rank));
         for ((_, message), (_, slots)) in outgoing.iter_mut().zip(&self.halo.slots_to) {
             for slot in slots.iter().cloned().flatten() {
                 // SAFETY: a slot of this simulation; no thread is at work.

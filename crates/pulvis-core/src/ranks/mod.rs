@@ -3,14 +3,15 @@
 //! Chunks are the unit of work of threads, and the order of every sum depends on chunks only; so they are the unit of ranks,
 //! too. Each rank computes a range of chunks, and a step has the same bits for any number of ranks times any number of
 //! threads. In a step the ranks exchange, with those whose rows touch theirs, the rows that loops read ([`halo`]) and
-//! what their contacts add to rows of others; and, all with all, what each chunk comes to. When the list is made anew, all
-//! rows are told to all, and the memory of a contact goes to the rank that it now belongs to.
+//! what their contacts add to rows of others; and all find out together what all chunks come to ([`reduce`]). When the list
+//! is made anew, all rows are told to all, and the memory of a contact goes to the rank that it now belongs to.
 //!
 //! Between the calls of [`advance`](crate::Simulation::advance) every rank holds the whole state. Whatever looks at it or
 //! changes it then does the same on every rank, without a word between them.
 
 pub(crate) mod halo;
 pub(crate) mod message;
+mod reduce;
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -28,8 +29,8 @@ pub(crate) struct Ranks {
     pub(crate) halo: HaloPlan,
     /// Whether each rank holds its own part only, as it does within an advance.
     pub(crate) shares: bool,
-    /// Whether all ranks know how far all rows can have moved.
-    pub(crate) movement_is_known: bool,
+    /// The least that is left of any skin [m], where all ranks know it.
+    pub(crate) left: Option<f64>,
     /// Time that this rank has worked since the borders were set, without waiting for others [s].
     pub(crate) seconds: f64,
     /// The messages that came last, for their memory.
@@ -43,7 +44,7 @@ impl Ranks {
             borders: Vec::new(),
             halo: HaloPlan::default(),
             shares: false,
-            movement_is_known: false,
+            left: None,
             seconds: 0.0,
             incoming: Vec::new(),
         }

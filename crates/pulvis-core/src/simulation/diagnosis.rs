@@ -113,7 +113,7 @@ impl Simulation {
     pub(super) fn survey_overlaps(&mut self) -> Result<(), StepError> {
         let most = self.limits.overlap;
         let least = if self.first_deep.is_some() { most } else { most.min(DEEP) };
-        let deepest = self.contacts.totals().overlap_max;
+        let deepest = self.pass.observed.overlap_max;
         if deepest <= least * self.smallest_radius() { Ok(()) } else { self.check_overlaps() }
     }
 

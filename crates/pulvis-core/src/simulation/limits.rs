@@ -164,7 +164,7 @@ impl Simulation {
 
     /// Whether the time step resolves the stiffest contact of the last pass, where its law does not bound that.
     pub(super) fn check_stiffness(&self) -> Result<(), StepError> {
-        let frequency = self.contacts.highest_rate_squared().sqrt();
+        let frequency = self.pass.rate_squared.sqrt();
         let (steps, least) = (PI / (frequency * self.time_step), self.limits.steps_per_contact);
         // Not `<`: NaN resolves nothing.
         let resolved = steps >= least;

@@ -16,6 +16,7 @@ mod observe;
 mod ranks;
 mod state;
 mod steps;
+mod sums;
 mod switch;
 
 pub use diagnosis::DeepContact;
@@ -28,6 +29,8 @@ use pulvis_contact::ROOM_TEMPERATURE;
 use pulvis_math::{InstructionSet, Vector3, max_or_nan};
 
 use self::cell::Cell;
+use self::sums::{PassTotals, RowSums};
+use crate::chunk_tree::ChunkTree;
 use crate::columns::NamedColumn;
 use crate::contacts::{BrokenBonds, ContactTable, Interactions, MemoryStore};
 use crate::integrator::Kicked;
@@ -98,6 +101,12 @@ pub struct Simulation {
     materials: Vec<MaterialIndex>,
     /// Scratch: what came out of the integration of each chunk.
     outcomes: Vec<Outcome>,
+    /// What all chunks came to in the last pass.
+    pass: PassTotals,
+    /// Scratch: sums over chunks.
+    tree: ChunkTree,
+    /// The sums over all rows after a step with this number, where this rank does not hold all rows.
+    row_sums: Option<(u64, RowSums)>,
     /// Scratch: how the walls lie and move, and their forces on the particles, in this step.
     walls_now: Vec<WallNow>,
     on_particles: Vec<WallForce>,
@@ -117,11 +126,11 @@ pub struct Simulation {
 
 /// The results of the integration of a chunk of rows.
 #[derive(Clone, Copy, Debug, Default)]
-struct Outcome {
+pub(crate) struct Outcome {
     /// Results of the last kicks.
     kicked: Kicked,
     /// Upper bounds of the displacements since the last rebuild [m].
-    moved: Moved,
+    pub(crate) moved: Moved,
     /// Time spent since the last rebuild [s].
     seconds: f64,
 }
@@ -226,6 +235,9 @@ impl Simulation {
             phases: None,
             materials: Vec::new(),
             outcomes: Vec::new(),
+            pass: PassTotals::default(),
+            tree: ChunkTree::default(),
+            row_sums: None,
             walls_now: Vec::new(),
             on_particles: vec![WallForce::default(); walls.len()],
             skin: Skin::default(),

@@ -2,6 +2,7 @@
 
 use pulvis_math::max_or_nan;
 
+use super::sums::RowSums;
 use super::{Group, Simulation};
 use crate::contacts::{
     Binding, BondCount, Chunk, ContactGroup, ContactTotals, ContactView, Views, view_bindings, view_contacts,
@@ -19,26 +20,15 @@ impl Simulation {
     /// Draws up the energy ledger. Looking changes nothing: the scale of relative errors is the largest energy in
     /// motion at the start, at every 64th step and now.
     pub fn ledger(&self) -> Ledger {
-        let particles = &self.particles;
-        let gravity = self.background.gravity;
-        let [translation, rotation, discretisation, potential] =
-            self.pool.sum_over(particles.len(), |rows| {
-                let mut sums = [0.0; 4];
-                for row in rows {
-                    let (mass, inertia) = (particles.mass[row], particles.inertia(row));
-                    let load = &particles.forces_and_torques[row];
-                    sums[3] -= mass * gravity.dot(particles.position[row].vector);
-                    // Like that of walls, what moves these is outside: see `work_walls`.
-                    if particles.is_prescribed(row) {
-                        continue;
-                    }
-                    sums[0] += 0.5 * mass * particles.velocity[row].vector.norm_squared();
-                    sums[1] += 0.5 * inertia * particles.angular_velocity[row].vector.norm_squared();
-                    sums[2] += load.force.vector.norm_squared() / mass;
-                    sums[2] += load.torque.vector.norm_squared() / inertia;
-                }
-                sums
-            });
+        match self.row_sums {
+            Some((step, rows)) if self.is_shared() && step == self.step => self.ledger_of(rows),
+            _ => self.ledger_of(self.sum_rows()),
+        }
+    }
+
+    /// The same from sums over all rows.
+    pub(super) fn ledger_of(&self, rows: RowSums) -> Ledger {
+        let RowSums { translation, rotation, discretisation, potential, fastest: _ } = rows;
         let unknown = if self.accounting { 0.0 } else { f64::NAN };
         let stored = self.running.contacts;
         let mut ledger = Ledger {
@@ -92,7 +82,7 @@ impl Simulation {
 
     /// Sums over all contacts, as the loops have added them up at the end of the last advance.
     pub fn contact_totals(&self) -> ContactTotals {
-        self.contacts.totals()
+        self.pass.observed
     }
 
     /// Hands every contact that acts to `see`, chunk by chunk, in each chunk pairs first, then walls.

@@ -4,12 +4,13 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use pulvis_contact::MemoryLayout;
-use pulvis_math::Vector3;
+use pulvis_math::{Vector3, min_or_nan};
 use pulvis_parallel::exchange::{Exchange, ExchangeError, Message};
 
 use super::Simulation;
 use super::errors::{Alarm, StepError};
 use crate::contacts::{BrokenBond, Known};
+use crate::integrator::Columns;
 use crate::neighbours::{CellGrid, Moved};
 use crate::particles::{ForceTorque, Particles};
 use crate::ranks::Ranks;
@@ -54,11 +55,24 @@ impl Simulation {
     pub(super) fn share_out(&mut self) -> Result<(), StepError> {
         let Some(ranks) = self.ranks.as_mut().filter(|ranks| !ranks.shares) else { return Ok(()) };
         ranks.share_out(self.contacts.chunks().len());
-        (ranks.shares, ranks.movement_is_known) = (true, true);
+        (ranks.shares, ranks.left) = (true, None);
         let own = ranks.chunks_of(ranks.rank());
         self.contacts.keep_only(own);
         let linked = self.link_ranks();
         self.agreed(linked)
+    }
+
+    /// After [`advance_apart`](Self::advance_apart): every rank gets to know the [ledger](Self::ledger). To be called on all
+    /// ranks.
+    ///
+    /// # Errors
+    /// A rank is lost.
+    pub fn tell_energies(&mut self) -> Result<(), StepError> {
+        if !self.is_shared() {
+            return Ok(());
+        }
+        let summed = self.sum_rows_of_all();
+        self.agreed(summed).map(drop)
     }
 
     /// After [`advance_apart`](Self::advance_apart): every rank gets to know how all particles are. To be called on all ranks.
@@ -138,13 +152,12 @@ impl Simulation {
         for (now, &before) in order.iter().enumerate() {
             rows_now[before as usize] = now as u32;
         }
-        let chunks = self.contacts.chunks();
-        let length = chunks.first().map_or(1, |chunk| chunk.rows.len().max(1));
+        let contacts = &self.contacts;
         let owner = |row: u32, partner: u32| {
             let now = rows_now[row as usize];
             // A wall is no row.
             let first = rows_now.get(partner as usize).map_or(now, |&other| other.min(now));
-            ranks.rank_of(first as usize / length)
+            ranks.rank_of(contacts.chunk_of(first))
         };
         let layouts: Vec<MemoryLayout> =
             self.interactions.models().map(|model| model.memory_layout()).collect();
@@ -181,34 +194,37 @@ impl Simulation {
         Ok(())
     }
 
-    /// Tells what the chunks of this rank have come to, and what the last kicks of their rows have.
-    pub(super) fn tell_totals(&mut self, observed: bool) -> Agreed {
+    /// Tells ranks whose contacts read rows of this one how these are in the middle of a step, and hears of others what it
+    /// reads.
+    pub(super) fn swap_rows(&mut self) -> Agreed {
+        let turning = self.step_of_rows(self.time_step).predicts_angular_velocities;
         let Some(ranks) = self.ranks.as_mut().filter(|ranks| ranks.shares) else { return Ok(()) };
-        let own = ranks.rank();
-        let mut message = Message::new();
-        for number in ranks.chunks_of(own) {
-            message.push(self.outcomes[number].kicked.power);
-            tell_moved(&self.outcomes[number].moved, &mut message);
-            self.contacts.tell_totals(number, observed, &mut message);
-        }
-        let chunks_of: Vec<Range<usize>> = (0..ranks.count()).map(|rank| ranks.chunks_of(rank)).collect();
-        for (rank, message) in ranks.gather(&message)?.iter().enumerate().filter(|(rank, _)| *rank != own) {
-            let mut numbers = Numbers::of(message);
-            for number in chunks_of[rank].clone() {
-                self.outcomes[number].kicked.power = numbers.next()?;
-                self.outcomes[number].moved = hear_moved(&mut numbers)?;
-                self.contacts.hear_totals(number, observed, &mut numbers)?;
-            }
-        }
-        ranks.movement_is_known = true;
-        Ok(())
+        let columns = Columns::of(&mut self.particles);
+        ranks.swap_rows(columns.moving(), turning, &mut self.outcomes)
     }
 
-    /// Tells how far the rows of this rank have moved, unless all know.
-    pub(super) fn tell_movement(&mut self) -> Agreed {
-        let Some(ranks) = self.ranks.as_mut().filter(|ranks| ranks.shares && !ranks.movement_is_known) else {
-            return Ok(());
-        };
+    /// Lower bound of the remaining skin of any particle of any rank [m].
+    pub(super) fn left_of_skins(&mut self) -> Agreed<f64> {
+        let own = &self.outcomes[self.contacts.own()];
+        let left = own.iter().map(|outcome| outcome.moved.left).fold(f64::INFINITY, min_or_nan);
+        let Some(ranks) = self.ranks.as_mut().filter(|ranks| ranks.shares) else { return Ok(left) };
+        if let Some(left) = ranks.left {
+            return Ok(left);
+        }
+        let mut message = vec![left];
+        ranks.reduce(&mut message, |lower, upper, both| {
+            let (mut lower, mut upper) = (Numbers::of(lower), Numbers::of(upper));
+            both.push(min_or_nan(lower.next()?, upper.next()?));
+            Ok(())
+        })?;
+        let left = Numbers::of(&message).next()?;
+        ranks.left = Some(left);
+        Ok(left)
+    }
+
+    /// Tells how far the rows of this rank have moved.
+    fn tell_movement(&mut self) -> Agreed {
+        let Some(ranks) = self.ranks.as_mut().filter(|ranks| ranks.shares) else { return Ok(()) };
         let own = ranks.rank();
         let mut message = Message::new();
         ranks.chunks_of(own).for_each(|number| tell_moved(&self.outcomes[number].moved, &mut message));
@@ -219,14 +235,13 @@ impl Simulation {
                 self.outcomes[number].moved = hear_moved(&mut numbers)?;
             }
         }
-        ranks.movement_is_known = true;
         Ok(())
     }
 
     /// The rows of this rank have moved in a way that others do not know of.
     pub(super) fn forget_movement(&mut self) {
         if let Some(ranks) = &mut self.ranks {
-            ranks.movement_is_known = false;
+            ranks.left = None;
         }
     }
 

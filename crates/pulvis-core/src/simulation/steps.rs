@@ -1,6 +1,5 @@
 //! Steps in time.
 
-use pulvis_math::min_or_nan;
 use pulvis_parallel::exchange::ExchangeError;
 
 use super::{Simulation, StepError};
@@ -9,7 +8,6 @@ use crate::integrator::{Columns, HalfKicks, Step};
 use crate::neighbours::Moved;
 use crate::phases::Stopwatch;
 use crate::shared::Shared;
-use crate::walls::WallForce;
 
 /// Steps between two looks at the energy: about a contact. A look costs a tenth of a step, and the fused kicks of one
 /// step.
@@ -73,7 +71,7 @@ impl Simulation {
             // particles that are led.
             let pauses = surveys_energy || deforms || leads;
             let swept = self.forces_and_kick(false, left > 0 && !pauses);
-            let background_power = self.agreed(swept)?;
+            self.agreed(swept)?;
             self.finish_walls();
             if deforms || leads {
                 let gathered = self.gather_rows_at_end();
@@ -87,7 +85,7 @@ impl Simulation {
             }
             self.time += self.time_step;
             self.check_stiffness()?;
-            self.running.take_in(self.contacts.energies(), background_power, self.time_step);
+            self.running.take_in(self.pass.energies, self.pass.background_power, self.time_step);
             if surveys_energy {
                 self.survey_energy()?;
             }
@@ -101,12 +99,18 @@ impl Simulation {
     /// Draws up the ledger: its scale grows with the energy that is in motion now, and its error must stay small, as must
     /// speeds and overlaps.
     fn survey_energy(&mut self) -> Result<(), StepError> {
-        let gathered = self.gather_rows_at_end();
-        self.agreed(gathered)?;
-        let ledger = self.ledger();
+        let summed = self.sum_rows_of_all();
+        let rows = self.agreed(summed)?;
+        let ledger = self.ledger_of(rows);
         self.running.scale = ledger.scale;
         self.check_energy(&ledger)?;
-        self.check_speeds()?;
+        // Not `>`: NaN is to be looked at.
+        let is_slow = rows.fastest <= self.limits.speed;
+        if !is_slow {
+            let gathered = self.gather_rows_at_end();
+            self.agreed(gathered)?;
+            self.check_speeds()?;
+        }
         self.survey_overlaps()
     }
 
@@ -153,7 +157,7 @@ impl Simulation {
         self.book_applied_work();
     }
 
-    fn step_of_rows(&self, time_step: f64) -> Step {
+    pub(super) fn step_of_rows(&self, time_step: f64) -> Step {
         let turning = self.interactions.models().any(|model| model.laws.has_resistance_dashpot());
         Step { time_step, predicts_angular_velocities: turning || self.background.has_drag() }
     }
@@ -167,17 +171,17 @@ impl Simulation {
         if surveyed {
             self.survey();
         }
-        let told = self.tell_movement();
-        self.agreed(told)?;
         let closing = self.closing_of_cell();
-        let mut holds = self.skin.holds(self.left_of_skins() - closing, walls);
+        let left = self.left_of_skins();
+        let mut holds = self.skin.holds(self.agreed(left)? - closing, walls);
         if !surveyed && !holds {
             self.survey();
-            let told = self.tell_movement();
-            self.agreed(told)?;
-            holds = self.skin.holds(self.left_of_skins() - closing, walls);
+            let left = self.left_of_skins();
+            holds = self.skin.holds(self.agreed(left)? - closing, walls);
         }
         if holds {
+            let swapped = self.swap_rows();
+            self.agreed(swapped)?;
             let outcomes = &self.outcomes;
             self.contacts.close_gaps(|chunk| outcomes[chunk].moved.farther(closing), walls);
             return Ok(());
@@ -197,11 +201,6 @@ impl Simulation {
             self.renew_candidates();
         }
         self.check_overlaps()
-    }
-
-    /// Lower bound of the remaining skin of any particle [m].
-    fn left_of_skins(&self) -> f64 {
-        self.outcomes.iter().map(|outcome| outcome.moved.left).fold(f64::INFINITY, min_or_nan)
     }
 
     /// Measures the displacements of all particles since the last rebuild.
@@ -252,11 +251,11 @@ impl Simulation {
     /// Forces and torques of all contacts and of the background, and the second half kick; with `onwards` also the first half
     /// kick and the drift of the next step. With `at_rest`, no time has passed since the last forces.
     ///
-    /// Returns the power of the drag [W]. The force of each wall on the particles is stored in `on_particles`.
+    /// What all contacts come to is stored in `pass`, the force of each wall on the particles in `on_particles`.
     ///
     /// # Errors
     /// A rank is lost.
-    fn forces_and_kick(&mut self, at_rest: bool, onwards: bool) -> Result<f64, ExchangeError> {
+    fn forces_and_kick(&mut self, at_rest: bool, onwards: bool) -> Result<(), ExchangeError> {
         self.walls_now.clear();
         for (wall, state) in self.walls.iter().zip(&self.wall_states) {
             let motion = if at_rest { state.now_at_rest(wall) } else { state.now(wall) };
@@ -290,10 +289,6 @@ impl Simulation {
         };
         let mut work = Stopwatch::start(self.ranks.as_ref().is_some_and(|ranks| ranks.shares));
         let mut ranks = self.ranks.as_deref_mut().filter(|ranks| ranks.shares);
-        if let Some(ranks) = &mut ranks {
-            ranks.swap_rows(sweep.moving, step.predicts_angular_velocities)?;
-            work = Stopwatch::start(true);
-        }
         let first_slot = self.contacts.row_count();
         let swap = || match &mut ranks {
             Some(ranks) => {
@@ -322,11 +317,9 @@ impl Simulation {
         });
         self.particles.columns = quantities;
         swept?;
-        self.tell_totals(!onwards)?;
-        self.on_particles.fill(WallForce::default());
-        self.contacts.add_wall_forces(&mut self.on_particles);
+        self.sum_up(!onwards)?;
         self.book_applied_work();
-        Ok(self.outcomes.iter().map(|outcome| outcome.kicked.power).sum())
+        Ok(())
     }
 
     /// Forces of the present state without a step. The memory of contacts changes only as the laws change it at a step of zero
@@ -345,8 +338,10 @@ impl Simulation {
         // No block is skipped: after a switch, any pair may act at once.
         self.contacts.close_gaps(|_| Moved::ANYWHERE, f64::INFINITY);
         // Every rank computes all of it.
-        let Ok(background_power) = self.forces_and_kick(true, false) else { return };
-        self.running.take_in(self.contacts.energies(), background_power, 0.0);
+        if self.forces_and_kick(true, false).is_err() {
+            return;
+        }
+        self.running.take_in(self.pass.energies, self.pass.background_power, 0.0);
         for (state, &force) in self.wall_states.iter_mut().zip(&self.on_particles) {
             state.load = -force;
         }

@@ -26,13 +26,14 @@ use super::stage::{Look, StageWatch};
 use super::start::{Resumed, resumed};
 use super::switch::switch;
 
-/// What the leader orders, as a number: so many steps, nothing but an answer, the end, to tell all of particles or of
-/// everything, or to go on to the next stage.
+/// What the leader orders, as a number: so many steps, nothing but an answer, the end, to tell all of particles, of
+/// everything or of energies, or to go on to the next stage.
 const WAIT: f64 = 0.0;
 const END: f64 = -1.0;
 const TELL_PARTICLES: f64 = -2.0;
 const TELL_EVERYTHING: f64 = -3.0;
 const NEXT_STAGE: f64 = -4.0;
+const TELL_ENERGIES: f64 = -5.0;
 
 /// What a follower answers.
 const GOES_ON: f64 = 0.0;
@@ -72,7 +73,11 @@ impl Leader {
         if simulation.knows_everything() || look == Look::Totals {
             return Ok(());
         }
-        self.order(if look == Look::Particles { TELL_PARTICLES } else { TELL_EVERYTHING })?;
+        self.order(match look {
+            Look::Totals | Look::Energies => TELL_ENERGIES,
+            Look::Particles => TELL_PARTICLES,
+            Look::Everything => TELL_EVERYTHING,
+        })?;
         Ok(tell(simulation, look)?)
     }
 
@@ -140,6 +145,7 @@ impl Leader {
 pub(super) fn tell(simulation: &mut Simulation, look: Look) -> Result<(), ExchangeError> {
     let told = match look {
         Look::Totals => Ok(()),
+        Look::Energies => simulation.tell_energies(),
         Look::Particles => simulation.tell_particles(),
         Look::Everything => simulation.tell_everything(),
     };
@@ -340,6 +346,7 @@ impl<'a> Follower<'a> {
             match order {
                 END => return Ok(false),
                 WAIT => continue,
+                TELL_ENERGIES => tell(&mut self.simulation, Look::Energies)?,
                 TELL_PARTICLES => tell(&mut self.simulation, Look::Particles)?,
                 TELL_EVERYTHING => tell(&mut self.simulation, Look::Everything)?,
                 NEXT_STAGE => {

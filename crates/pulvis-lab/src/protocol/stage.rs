@@ -29,6 +29,8 @@ pub(super) const LEAST_STEPS_TO_REST: u64 = LOOK_EVERY * LOOKS_IN_A_ROW as u64;
 pub(super) enum Look {
     /// What all forces come to.
     Totals,
+    /// The energy ledger, too.
+    Energies,
     /// Particles, too.
     Particles,
     /// Contacts, too; or the state is about to change.
@@ -148,10 +150,12 @@ impl<'a> StageWatch<'a> {
     /// What [`ending`](Self::ending) looks at now that one of several ranks does not know by itself.
     pub(super) fn look(&self, simulation: &Simulation) -> Look {
         let looks = (simulation.steps() - self.start_step).is_multiple_of(LOOK_EVERY);
-        let StopRules { steady, stress, kinetic_to_elastic, .. } = self.rules;
+        let StopRules { steady, stress, kinetic_to_elastic, pressure_tolerance, .. } = self.rules;
         match looks {
             true if steady.is_some() => Look::Everything,
-            true if stress.is_some() || kinetic_to_elastic.is_some() => Look::Particles,
+            // The stress of a cell is that of particles, too.
+            true if stress.is_some() || pressure_tolerance.is_some() => Look::Particles,
+            true if kinetic_to_elastic.is_some() => Look::Energies,
             _ => Look::Totals,
         }
     }

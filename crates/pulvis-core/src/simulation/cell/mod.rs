@@ -137,7 +137,7 @@ impl Simulation {
     /// V σ = Σ m c ⊗ c + Σ f ⊗ b now [J], compression positive: over the volume of the cell, its stress. f is the force
     /// on the first body of a contact, b the way to it from the second.
     pub fn stress_times_volume(&self) -> [[f64; 3]; 3] {
-        let mut sums = self.contacts.totals().virial;
+        let mut sums = self.pass.observed.virial;
         let kinetic = self.kinetic_tensor();
         for (entry, [row, column]) in UpperTriangular::INDICES.into_iter().enumerate() {
             sums[row][column] += kinetic[entry];

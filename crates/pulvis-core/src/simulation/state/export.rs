@@ -46,7 +46,10 @@ impl Simulation {
             // Follow from the particles.
             materials: _,
             outcomes,
+            pass,
             // Written in every step before they are read.
+            tree: _,
+            row_sums: _,
             walls_now: _,
             on_particles: _,
             skin,
@@ -79,7 +82,7 @@ impl Simulation {
             groups: groups.iter().map(group_of).collect(),
             list,
             memory,
-            totals: contacts.totals(),
+            totals: pass.observed,
             broken_bonds: broken_bonds.pairs().to_vec(),
             ledger: running.numbers(),
         }

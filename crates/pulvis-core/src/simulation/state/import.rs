@@ -44,7 +44,7 @@ impl Simulation {
         simulation.check_walls()?;
         simulation.remake_list(&state.list)?;
         simulation.contacts.import(&simulation.particles.id, &state.memory, &state.list.active)?;
-        simulation.contacts.restore_totals(state.totals);
+        simulation.pass.observed = state.totals;
         simulation.go_to_present(state)?;
         Ok(simulation)
     }

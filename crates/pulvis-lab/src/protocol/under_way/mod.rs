@@ -209,7 +209,7 @@ impl<'a> Run<'a> {
             }
             self.checkpoint(&rules, asked)?;
             if pace.is_due(self.simulation.steps(), self.leader.patience()) {
-                self.look(Look::Particles)?;
+                self.look(Look::Energies)?;
                 let fraction = rules.progress(&self.simulation);
                 let progress = self.progress(number, &mut pace, fraction, None);
                 self.status.tell(&progress);
