@@ -92,6 +92,32 @@ def check_csv(folder, end):
     print(f"pandas {pandas.__version__} reads csv ({end})")
 
 
+def check_compressed(folder, end):
+    """The same numbers from compressed files, to the bit."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    if end != "double":
+        return
+    for number in range(len(STEPS)):
+        for kind in ("particles", "contacts"):
+            read = []
+            for name in ("double", "compressed"):
+                reader = vtkXMLPolyDataReader()
+                reader.SetFileName(os.path.join(folder, f"vtk_{name}_{kind}_{number:04d}.vtp"))
+                reader.Update()
+                data = reader.GetOutput()
+                columns = data.GetPointData() if kind == "particles" else data.GetCellData()
+                arrays = {columns.GetArrayName(n): vtk_to_numpy(columns.GetArray(n)) for n in range(columns.GetNumberOfArrays())}
+                arrays["Points"] = vtk_to_numpy(data.GetPoints().GetData())
+                read.append(arrays)
+            plain, compressed = read
+            require(plain.keys() == compressed.keys() and len(plain) > 3, f"{kind}: {sorted(compressed)}")
+            for name, values in plain.items():
+                require((values == compressed[name]).all() and values.shape == compressed[name].shape, f"compressed {kind}: {name} differs")
+    print("VTK reads compressed files")
+
+
 def check_vtk(folder, end):
     import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -180,7 +206,7 @@ def main(arguments):
         print(__doc__)
         return 2
     try:
-        for check in (check_npz, check_csv, check_vtk, check_image, check_ovito):
+        for check in (check_npz, check_csv, check_vtk, check_compressed, check_image, check_ovito):
             for end in ("double", "single"):
                 try:
                     check(arguments[0], end)

@@ -4,11 +4,11 @@
 use libfuzzer_sys::fuzz_target;
 use pulvis_input::scenario::Scenario;
 
-const ENDINGS: [&str; 4] = ["csv", "dump", "data", "xyz"];
+const ENDINGS: [&str; 5] = ["csv", "dump", "data", "xyz", "vtp"];
 
 fuzz_target!(|data: &[u8]| {
     let Some((first, content)) = data.split_first() else { return };
-    let file = pulvis_fuzz::file(ENDINGS[usize::from(first % 4)], content);
+    let file = pulvis_fuzz::file(ENDINGS[usize::from(first % 5)], content);
     let scenario = include_str!("import.toml").replace("GRAINS", &file.to_string_lossy());
     pulvis_fuzz::judge(Scenario::from_str("case.toml", &scenario));
 });

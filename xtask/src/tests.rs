@@ -64,6 +64,7 @@ fn sample_files() -> Outcome {
     let path = folder.to_string_lossy();
     run(&mut cargo(&["run", "--quiet", "-p", "pulvis-io", "--example", "sample_run", "--", &path]))?;
     read_by_vtk(&folder, &["--sample"])?;
+    read_by_vtk(&folder.join("compressed"), &["--sample", "--without-ovito"])?;
     let Some(python) = python_with_vtk() else { return Ok(()) };
     run(Command::new(&python).arg(root().join("scripts/check_formats.py")).arg(folder.join("formats")))?;
     schemas(&python)

@@ -5,7 +5,7 @@
 #![allow(clippy::print_stderr)]
 
 use pulvis_io::IoError;
-use pulvis_io::frames::{Bounds, FORMATS, Instant, Precision, Series};
+use pulvis_io::frames::{Bounds, FORMATS, Instant, Precision, Series, format};
 use pulvis_io::vtk::{
     Column, ContactFrame, Frame, ImageGrid, Numbers, ParticleFrame, PolyData, SeriesWriter, WallFrame,
     write_image,
@@ -18,7 +18,13 @@ fn main() -> std::process::ExitCode {
         return std::process::ExitCode::from(2);
     };
     let folder = PathBuf::from(folder);
-    match write(folder.clone()).and_then(|()| write_formats(&folder.join("formats"))) {
+    let compressed = folder.join("compressed");
+    let series = |folder: &Path| SeriesWriter::create(folder, "");
+    let written = series(&folder)
+        .and_then(write)
+        .and_then(|()| write(series(&compressed)?.compressed(true)))
+        .and_then(|()| write_formats(&folder.join("formats")));
+    match written {
         Ok(()) => std::process::ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -28,8 +34,7 @@ fn main() -> std::process::ExitCode {
 }
 
 /// Frames of a row of spheres, one of them without contacts and walls; the last one is empty. Readers must bear both.
-fn write(folder: PathBuf) -> Result<(), IoError> {
-    let mut series = SeriesWriter::create(folder, "")?;
+fn write(mut series: SeriesWriter) -> Result<(), IoError> {
     let frames = [(0.0, 5_u32, true), (0.0625, 7, false), (0.125, 4000, true), (1.0e-3 + 0.25, 0, true)];
     for (time, count, touching) in frames {
         let id: Vec<u32> = (1..=count).collect();
@@ -87,6 +92,13 @@ fn write_formats(folder: &Path) -> Result<(), IoError> {
         tilt: [0.5, 0.0, -0.25],
         periodic: [true, false, true],
     };
+    let compressed = Series { compressed: true, name: "vtk_compressed", ..series(folder) };
+    let mut writer = (format("vtk")?.open)(&compressed)?;
+    for step in [0, 100, 200] {
+        let time = step as f64 / 700.0;
+        let frame = frame(time);
+        writer.write(&Instant { time, step, bounds, materials: &materials, frame: &frame })?;
+    }
     // A grid of 4 x 3 x 2 cells.
     let values: Vec<f64> = (0..24).map(|cell| f64::from(cell) / 7.0).collect();
     let tensors: Vec<[f64; 9]> =
@@ -97,8 +109,14 @@ fn write_formats(folder: &Path) -> Result<(), IoError> {
     for (precision, end) in [(Precision::Double, "double"), (Precision::Single, "single")] {
         for format in FORMATS {
             let name = format!("{}_{end}", format.name.replace('-', "_"));
-            let mut writer =
-                (format.open)(&Series { folder, name: &name, precision, contacts: true, resume: None })?;
+            let mut writer = (format.open)(&Series {
+                folder,
+                name: &name,
+                precision,
+                compressed: false,
+                contacts: true,
+                resume: None,
+            })?;
             for step in [0, 100, 200] {
                 let time = step as f64 / 700.0;
                 let frame = frame(time);
@@ -107,6 +125,10 @@ fn write_formats(folder: &Path) -> Result<(), IoError> {
         }
     }
     Ok(())
+}
+
+fn series(folder: &Path) -> Series<'_> {
+    Series { folder, name: "", precision: Precision::Double, compressed: false, contacts: true, resume: None }
 }
 
 fn frame(time: f64) -> Frame {

@@ -165,7 +165,7 @@ fn read_reading(
     let time_unit = table.or("time_unit", QuantityRule::of(Dimension::TIME).above(0.0), 1.0);
     let words = read_words(table, materials);
     let (format, frame) = (format?, frame?);
-    if frame.is_some() && !matches!(format, PointsFormat::LammpsDump | PointsFormat::Xyz) {
+    if frame.is_some() && matches!(format, PointsFormat::Table | PointsFormat::LammpsData) {
         let found = format!("a file of the format {:?} holds one instant", format.name());
         return Err(table.refuse("frame", Problem::rule(found, "no `frame`")));
     }

@@ -8,7 +8,7 @@ use crate::context::Reported;
 use crate::list::List;
 use crate::problem::Problem;
 use crate::reader::TableReader;
-use crate::shape::{Choice, Shape, Text};
+use crate::shape::{Boolean, Choice, Shape, Text};
 use crate::value::Value;
 use crate::value_reader::ValueReader;
 use pulvis_boundary::{Cuboid, Domain, Region};
@@ -32,6 +32,8 @@ pub struct OutputFiles {
     pub region: Option<Region>,
     /// Whether numbers have 32 bits instead of 64.
     pub single_precision: bool,
+    /// Whether files are compressed; VTK files only.
+    pub compressed: bool,
 }
 
 /// What is written of contacts.
@@ -165,6 +167,13 @@ fn read_block(
     let region = read_region(&mut table, "region").and_then(|region| {
         region.map(|region| check_region(&table, region, sample.domain, sample.enclosure)).transpose()
     });
+    let compressed = table.or("compressed", Boolean, false).and_then(|compressed| match &format {
+        Ok(format) if compressed && *format != FileFormat::Vtk => {
+            let found = format!("`compressed` for the format {:?}", format.name());
+            Err(table.refuse("compressed", Problem::rule(found, "the format \"vtk\", or no `compressed`")))
+        }
+        _ => Ok(compressed),
+    });
     let precision = table.or("precision", Choice(&[("double", false), ("single", true)]), false);
     table.finish();
     Ok(OutputFiles {
@@ -175,6 +184,7 @@ fn read_block(
         contacts: contacts?,
         region: region?,
         single_precision: precision?,
+        compressed: compressed?,
     })
 }
 
@@ -285,7 +295,8 @@ impl Shape for ContactShape {
 /// Writes `[[output.files]]`.
 pub(super) fn write_output_files(writer: &mut Writer, all: &[OutputFiles]) {
     for files in all {
-        let OutputFiles { name, format, every, fields, contacts, region, single_precision } = files;
+        let OutputFiles { name, format, every, fields, contacts, region, single_precision, compressed } =
+            files;
         writer.item("output.files");
         writer.key("name", text(name));
         writer.key("format", text(format.name()));
@@ -304,6 +315,9 @@ pub(super) fn write_output_files(writer: &mut Writer, all: &[OutputFiles]) {
             ContactFields::Named(fields) => writer.key("contacts", names(fields)),
         }
         writer.key("precision", text(if *single_precision { "single" } else { "double" }));
+        if *compressed {
+            writer.key("compressed", "true");
+        }
         if let Some(region) = region {
             writer.table("output.files.region");
             write_region(writer, region);

@@ -298,6 +298,7 @@ fn files(page: Page<'_>) -> Value {
             ("contacts", either([boolean(), list(choice(CONTACT_FIELDS))])),
             ("region", region(page)),
             ("precision", choice(["double", "single"])),
+            ("compressed", boolean()),
         ],
         &["format"],
     )

@@ -51,6 +51,8 @@ pub struct Series<'a> {
     pub name: &'a str,
     /// How exact numbers are.
     pub precision: Precision,
+    /// Whether files are compressed; of use to `vtk` only.
+    pub compressed: bool,
     /// Whether contacts are written, where a format has files of their own for them.
     pub contacts: bool,
     /// How far an interrupted run had come; what was written later is cut off or replaced. `None` starts anew.

@@ -62,7 +62,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 fn series<'a>(folder: &'a Path, resume: Option<&'a FramePosition>) -> Series<'a> {
-    Series { folder, name: "sample", precision: Precision::Double, contacts: true, resume }
+    Series { folder, name: "sample", precision: Precision::Double, compressed: false, contacts: true, resume }
 }
 
 #[test]
@@ -110,7 +110,14 @@ fn text_formats_hold_the_very_numbers_and_single_precision_the_nearest_of_32_bit
     for precision in [Precision::Double, Precision::Single] {
         for (name, file) in [("xyz", "a.xyz"), ("lammps-dump", "a.dump"), ("csv", "a_0000.csv")] {
             let folder = tempfile::tempdir().unwrap();
-            let series = Series { folder: folder.path(), name: "a", precision, contacts: true, resume: None };
+            let series = Series {
+                folder: folder.path(),
+                name: "a",
+                precision,
+                compressed: false,
+                contacts: true,
+                resume: None,
+            };
             write(&mut *(format(name).unwrap().open)(&series).unwrap(), 1..2, BOUNDS);
             let text = std::fs::read_to_string(folder.path().join(file)).unwrap();
             let lines: Vec<&str> = text.lines().collect();
@@ -180,6 +187,7 @@ fn vtk_frames_of_single_precision_and_tensors_come_back() {
         folder: folder.path(),
         name: "s",
         precision: Precision::Single,
+        compressed: false,
         contacts: true,
         resume: None,
     };

@@ -11,7 +11,8 @@ pub(super) const FORMAT: Format = Format {
     open: |series| {
         let (folder, name, precision) = (series.folder, series.name, series.precision);
         let frames = series.resume.map_or(0, |position| position.frames as usize);
-        let writer = SeriesWriter::resume(folder, name, frames)?.with_precision(precision);
+        let writer = SeriesWriter::resume(folder, name, frames)?;
+        let writer = writer.with_precision(precision).compressed(series.compressed);
         Ok(Box::new(writer))
     },
 };

@@ -112,7 +112,7 @@ pub(super) fn write_triangles(
     check(columns, corners.len() / 3, "triangles")?;
     let coordinates = corners.as_flattened();
     file::replace(path, |file| {
-        polydata::write(file, coordinates, Cells::Triangles, columns, Precision::Double)
+        polydata::write(file, coordinates, Cells::Triangles, columns, Precision::Double, false)
     })
 }
 
@@ -121,18 +121,26 @@ pub(super) fn write_triangles(
 /// # Errors
 /// A column of the wrong length, a name used twice, or a file that cannot be written.
 pub fn write_particles(path: &Path, frame: &ParticleFrame<'_>) -> Result<(), IoError> {
-    write_particles_as(path, frame, Precision::Double)
+    write_particles_as(path, frame, Precision::Double, false)
 }
 
-/// The same with numbers of this precision.
+/// The same with numbers of this precision, compressed if asked for.
 pub(super) fn write_particles_as(
     path: &Path,
     frame: &ParticleFrame<'_>,
     precision: Precision,
+    compressed: bool,
 ) -> Result<(), IoError> {
     check(frame.columns, frame.positions.len(), "particles")?;
     file::replace(path, |file| {
-        polydata::write(file, frame.positions.as_flattened(), Cells::Vertices, frame.columns, precision)
+        polydata::write(
+            file,
+            frame.positions.as_flattened(),
+            Cells::Vertices,
+            frame.columns,
+            precision,
+            compressed,
+        )
     })
 }
 
@@ -141,18 +149,21 @@ pub(super) fn write_particles_as(
 /// # Errors
 /// A column of the wrong length, a name used twice, or a file that cannot be written.
 pub fn write_contacts(path: &Path, frame: &ContactFrame<'_>) -> Result<(), IoError> {
-    write_contacts_as(path, frame, Precision::Double)
+    write_contacts_as(path, frame, Precision::Double, false)
 }
 
-/// The same with numbers of this precision.
+/// The same with numbers of this precision, compressed if asked for.
 pub(super) fn write_contacts_as(
     path: &Path,
     frame: &ContactFrame<'_>,
     precision: Precision,
+    compressed: bool,
 ) -> Result<(), IoError> {
     check(frame.columns, frame.ends.len(), "contacts")?;
     let coordinates = frame.ends.as_flattened().as_flattened();
-    file::replace(path, |file| polydata::write(file, coordinates, Cells::Lines, frame.columns, precision))
+    file::replace(path, |file| {
+        polydata::write(file, coordinates, Cells::Lines, frame.columns, precision, compressed)
+    })
 }
 
 /// Writes walls as lines of two points each: `path` should end in `.vtp`.
@@ -163,7 +174,9 @@ pub fn write_walls(path: &Path, frame: &WallFrame<'_>) -> Result<(), IoError> {
     let columns = [Column::scalar("radius", frame.radii)];
     check(&columns, frame.ends.len(), "walls")?;
     let coordinates = frame.ends.as_flattened().as_flattened();
-    file::replace(path, |file| polydata::write(file, coordinates, Cells::Lines, &columns, Precision::Double))
+    file::replace(path, |file| {
+        polydata::write(file, coordinates, Cells::Lines, &columns, Precision::Double, false)
+    })
 }
 
 /// Every column has one value per row and its own name.

@@ -1,7 +1,7 @@
 //! Values on a regular grid as a VTK image, `.vti`.
 
 use super::frame::Column;
-use super::polydata::{section, write_column};
+use super::polydata::{Xml, section, write_column};
 use crate::frames::Precision;
 use crate::{IoError, file};
 use std::io::Write;
@@ -28,22 +28,20 @@ pub fn write_image(path: &Path, grid: &ImageGrid, columns: &[Column<'_>]) -> Res
     let words = |values: [f64; 3]| values.map(|value| format!("{value:?}")).join(" ");
     let extent = grid.cells.map(|count| format!("0 {count}")).join(" ");
     file::replace(path, |out| {
-        writeln!(out, "<?xml version=\"1.0\"?>")?;
+        let xml = &mut Xml::new(out, false);
+        let head = xml.head();
+        writeln!(xml.out, "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" {head}>")?;
         writeln!(
-            out,
-            "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">"
-        )?;
-        writeln!(
-            out,
+            xml.out,
             "<ImageData WholeExtent=\"{extent}\" Origin=\"{}\" Spacing=\"{}\">",
             words(grid.origin),
             words(grid.spacing)
         )?;
-        writeln!(out, "<Piece Extent=\"{extent}\">")?;
-        section(out, "PointData", |_| Ok(()))?;
-        section(out, "CellData", |out| {
-            columns.iter().try_for_each(|column| write_column(out, column, Precision::Double))
+        writeln!(xml.out, "<Piece Extent=\"{extent}\">")?;
+        section(xml, "PointData", |_| Ok(()))?;
+        section(xml, "CellData", |xml| {
+            columns.iter().try_for_each(|column| write_column(xml, column, Precision::Double))
         })?;
-        writeln!(out, "</Piece>\n</ImageData>\n</VTKFile>")
+        writeln!(xml.out, "</Piece>\n</ImageData>\n</VTKFile>")
     })
 }

@@ -15,7 +15,8 @@
 //! 64-bit lengths, little-endian, no `FieldData` (OVITO refuses a file that has one, so the time lives in the index),
 //! the position array named `Points`, and a contact file with two points of its own per line (OVITO tells contacts
 //! from a surface by that). Checked with VTK 9.7, pyvista 0.49 and OVITO 3.17; `scripts/check_vtk.py` repeats the check
-//! on any run folder.
+//! on any run folder. [`SeriesWriter::compressed`] is for those who do without OVITO: appended bytes with zlib, which VTK and ParaView
+//! read, and OVITO 3.17 and [`read_frame`] do not.
 //!
 //! Column names that OVITO understands unaided: `id`, `type`, `radius`, `v` (velocity), `omega`, `f` (force) for
 //! particles and `id1`, `id2`, `force` for contacts. ParaView takes any name.

@@ -20,6 +20,8 @@ pub struct SeriesWriter {
     prefix: String,
     entries: Vec<Entry>,
     precision: Precision,
+    /// Whether particles and contacts are compressed.
+    compressed: bool,
     /// The last surfaces and their file, which later frames name as long as no wall moves.
     surfaces: Option<(String, PolyData)>,
 }
@@ -36,7 +38,14 @@ impl SeriesWriter {
         let folder = folder.into();
         file::create_folder(&folder)?;
         let prefix = if prefix.is_empty() { String::new() } else { format!("{prefix}_") };
-        Ok(Self { folder, prefix, entries: Vec::new(), precision: Precision::Double, surfaces: None })
+        Ok(Self {
+            folder,
+            prefix,
+            entries: Vec::new(),
+            precision: Precision::Double,
+            compressed: false,
+            surfaces: None,
+        })
     }
 
     /// Goes on with the series of an interrupted run: its first `frames` frames stay, later ones leave the index and are
@@ -75,6 +84,12 @@ impl SeriesWriter {
         Self { precision, ..self }
     }
 
+    /// The same series with compressed particles and contacts, which ParaView and VTK read, and OVITO does not.
+    #[must_use]
+    pub fn compressed(self, compressed: bool) -> Self {
+        Self { compressed, ..self }
+    }
+
     /// Writes one frame at `time` \[s\] and lists it in the index; returns the frame's file.
     ///
     /// # Errors
@@ -92,8 +107,8 @@ impl SeriesWriter {
             return Err(IoError::FrameTime { time, previous });
         }
         let [particle_file, contact_file, wall_file, _, frame_file, _] = self.next_files();
-        write_particles_as(&self.folder.join(&particle_file), particles, self.precision)?;
-        write_contacts_as(&self.folder.join(&contact_file), contacts, self.precision)?;
+        write_particles_as(&self.folder.join(&particle_file), particles, self.precision, self.compressed)?;
+        write_contacts_as(&self.folder.join(&contact_file), contacts, self.precision, self.compressed)?;
         write_walls(&self.folder.join(&wall_file), walls)?;
         let path = self.folder.join(&frame_file);
         let mut blocks = vec![("Particles", &*particle_file)];

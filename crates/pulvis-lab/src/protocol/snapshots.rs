@@ -36,6 +36,7 @@ pub(super) struct Plan<'a> {
     pub(super) name: &'a str,
     every: Option<Interval>,
     precision: Precision,
+    compressed: bool,
     pub(super) selection: Selection<'a>,
 }
 
@@ -66,6 +67,7 @@ pub(super) fn plans(scenario: &Scenario) -> Vec<Plan<'_>> {
         name: "",
         every,
         precision: Precision::Double,
+        compressed: false,
         selection: Selection::default_of_runs(scenario),
     };
     let mut plans = match scenario.output.snapshots {
@@ -78,6 +80,7 @@ pub(super) fn plans(scenario: &Scenario) -> Vec<Plan<'_>> {
         name: &files.name,
         every: files.every,
         precision: if files.single_precision { Precision::Single } else { Precision::Double },
+        compressed: files.compressed,
         selection: Selection::of(files, scenario),
     }));
     plans
@@ -200,5 +203,12 @@ fn open(
     resume: Option<&FramePosition>,
 ) -> Result<Box<dyn FrameWriter>, IoError> {
     let (name, precision, contacts) = (plan.name, plan.precision, plan.selection.has_contacts());
-    (frames::format(plan.format)?.open)(&Series { folder, name, precision, contacts, resume })
+    (frames::format(plan.format)?.open)(&Series {
+        folder,
+        name,
+        precision,
+        compressed: plan.compressed,
+        contacts,
+        resume,
+    })
 }

@@ -55,7 +55,7 @@ pub struct Corpus {
     studies: Vec<String>,
     tables: Vec<String>,
     /// With the endings of their files.
-    imports: Vec<(&'static str, String)>,
+    imports: Vec<(&'static str, Vec<u8>)>,
     meshes: Vec<(&'static str, Vec<u8>)>,
     /// Header and contents of a checkpoint.
     checkpoint: (String, Vec<u8>),
@@ -116,10 +116,9 @@ impl Corpus {
             "dump" => "dump",
             "data" => "data",
             "xyz" => "xyz",
+            "vtp" | "vtp_appended" => "vtp",
             _ => "csv",
         });
-        let imports = imports.into_iter().map(|(ending, seed)| (ending, String::from_utf8(seed).unwrap()));
-        let imports = imports.collect();
         let meshes =
             seeds(&root.join("fuzz/seeds/mesh"), |name| if name == "object" { "obj" } else { "stl" });
         Self { scenarios, collisions, probes, figures, studies, tables, imports, meshes, checkpoint, folder }
@@ -160,12 +159,16 @@ impl Corpus {
                 of_scenario(Scenario::load(&file))
             }
             Format::Import => {
-                let texts: Vec<String> = self.imports.iter().map(|(_, text)| text.clone()).collect();
+                let text = |bytes: &Vec<u8>| String::from_utf8(bytes.clone()).ok();
+                let texts: Vec<String> = self.imports.iter().filter_map(|(_, seed)| text(seed)).collect();
                 let (ending, sound) = dice.pick(&self.imports);
-                let text = mutated(sound, &texts, dice);
-                given.clone_from(&text);
+                let bytes = match text(sound) {
+                    Some(text) => mutated(&text, &texts, dice).into_bytes(),
+                    None => mutated_bytes(sound, dice),
+                };
+                *given = String::from_utf8_lossy(&bytes).into_owned();
                 let path = format!("grains.{ending}");
-                fs::write(self.folder.join(&path), text).unwrap();
+                fs::write(self.folder.join(&path), bytes).unwrap();
                 let file = self.folder.join("import.toml");
                 fs::write(&file, WITH_TABLE.replace("table.csv", &path)).unwrap();
                 of_scenario(Scenario::load(&file))

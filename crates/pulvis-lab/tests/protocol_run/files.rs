@@ -21,6 +21,7 @@ pub(super) fn every_format() -> Vec<OutputFiles> {
         region: (number == 3)
             .then_some(Region::Sphere { centre: Vector3::new(2e-5, 2e-5, 2e-5), radius: 15e-6 }),
         single_precision: number == 2,
+        compressed: false,
     };
     FileFormat::ALL.into_iter().enumerate().map(block).collect()
 }
@@ -71,6 +72,7 @@ fn the_sums_over_particles_are_the_stress_of_observers_and_the_energies_of_the_l
         ),
         region: None,
         single_precision: false,
+        compressed: false,
     }];
     run(&scenario, folder.path());
     let (series, particles) = (Series::read(folder.path()), last_table(folder.path(), "all"));
@@ -140,6 +142,7 @@ fn a_region_holds_the_particles_whose_centres_lie_in_it() {
         contacts: ContactFields::None,
         region,
         single_precision: false,
+        compressed: false,
     };
     let (centre, radius) = (Vector3::new(2e-5, 2e-5, 2e-5), 12e-6);
     scenario.output.files =
@@ -167,7 +170,7 @@ fn every_format_of_scenarios_has_a_writer() {
 }
 
 #[test]
-fn the_last_state_as_csv_or_xyz_is_a_start_with_the_same_particles() {
+fn the_last_state_in_any_format_that_is_read_is_a_start_with_the_same_particles() {
     let folder = tempfile::tempdir().unwrap();
     let mut scenario = observed();
     let block = |name: &str, format| OutputFiles {
@@ -178,15 +181,31 @@ fn the_last_state_as_csv_or_xyz_is_a_start_with_the_same_particles() {
         contacts: ContactFields::None,
         region: None,
         single_precision: false,
+        compressed: false,
     };
-    scenario.output.files =
-        vec![block("a", FileFormat::Csv), block("b", FileFormat::Xyz), block("c", FileFormat::LammpsDump)];
+    scenario.output.files = vec![
+        block("a", FileFormat::Csv),
+        block("b", FileFormat::Xyz),
+        block("c", FileFormat::LammpsDump),
+        block("d", FileFormat::Vtk),
+        OutputFiles { compressed: true, ..block("e", FileFormat::Vtk) },
+    ];
     run(&scenario, folder.path());
     let last = last_table(folder.path(), "a");
     let names =
         fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let csv = names.filter(|name| name.starts_with("a_") && name.ends_with(".csv")).max().unwrap();
-    for (file, materials) in [(csv.as_str(), "true"), ("b.xyz", "true"), ("c.dump", "{ 1 = \"grain\" }")] {
+    let by_number = "{ 0 = \"grain\" }";
+    for (file, materials) in [
+        (csv.as_str(), "true"),
+        ("b.xyz", "true"),
+        ("c.dump", "{ 1 = \"grain\" }"),
+        ("d_series.pvd", by_number),
+        ("e_series.pvd", by_number),
+        // The folder of the run.
+        ("", "true"),
+        ("", by_number),
+    ] {
         let text = format!(
             "[materials.grain]\ndensity = \"2000 kg/m^3\"\n[contacts.grain-grain.normal]\nlaw = \"linear\"\nk = \"100 N/m\"\n\
              [[particles]]\n[particles.arrangement]\nkind = \"file\"\npath = {:?}\nmaterials = {materials}\n\

@@ -20,7 +20,7 @@ pub enum PointsError {
         reason: std::io::Error,
     },
     /// No particle stands in the file.
-    #[error("{file} holds no particles; expected a line of numbers for each")]
+    #[error("{file} holds no particles; expected one or more")]
     Empty {
         /// The path of the file.
         file: String,
@@ -86,6 +86,32 @@ pub enum PointsError {
         found: String,
         /// What should stand there.
         expected: String,
+    },
+    /// An array whose numbers cannot be had.
+    #[error("{file}:{line}: the array {name} {problem}")]
+    Array {
+        /// The path of the file.
+        file: String,
+        /// The number of the line on which the array is announced.
+        line: usize,
+        /// The name of the array.
+        name: String,
+        /// What is wrong with it, and what was expected.
+        problem: String,
+    },
+    /// A folder that is not that of a run with frames.
+    #[error(
+        "{folder} has no series.pvd; expected the folder of a run that has written frames (`vtk` in its [output])"
+    )]
+    NoRun {
+        /// The path of the folder.
+        folder: String,
+    },
+    /// The record of a run, which names its materials, cannot be read.
+    #[error("the names of the materials of the run cannot be read: {reason}")]
+    Record {
+        /// What is wrong, with the path of the file.
+        reason: String,
     },
     /// The file has fewer instants.
     #[error("{file} holds {found} frames; expected more, for frame {wanted} counted from 0")]

@@ -5,6 +5,7 @@ mod error;
 mod lammps_data;
 mod rows;
 mod table;
+mod vtk;
 mod xyz;
 
 pub use error::PointsError;
@@ -39,15 +40,21 @@ pub enum PointsFormat {
     LammpsData,
     /// XYZ, extended or plain.
     Xyz,
+    /// VTK's XML: points, or an index of files of points.
+    Vtk,
+    /// The folder of a run of Pulvis.
+    Run,
 }
 
 impl PointsFormat {
     /// All of them, with their names in a scenario.
-    pub const ALL: [(&'static str, Self); 4] = [
+    pub const ALL: [(&'static str, Self); 6] = [
         ("table", Self::Table),
         ("lammps-dump", Self::LammpsDump),
         ("lammps-data", Self::LammpsData),
         ("xyz", Self::Xyz),
+        ("vtk", Self::Vtk),
+        ("run", Self::Run),
     ];
 
     /// The name in a scenario.
@@ -55,40 +62,58 @@ impl PointsFormat {
         Self::ALL.iter().find(|(_, format)| *format == self).map_or("", |(name, _)| name)
     }
 
-    /// What the ending of a file says; a table where it says nothing.
+    /// What the ending of a file says; a table where it says nothing. A folder is that of a run.
     pub(super) fn of_path(path: &Path) -> Self {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match ending.as_str() {
             "dump" | "lammpstrj" => Self::LammpsDump,
             "data" | "lmp" => Self::LammpsData,
             "xyz" | "extxyz" => Self::Xyz,
+            "vtp" | "vtu" | "vtm" | "pvd" => Self::Vtk,
+            _ if path.is_dir() => Self::Run,
             _ => Self::Table,
         }
     }
 }
 
-/// Reads a file of particles.
+/// Reads a file of particles, or the folder of a run.
 pub(super) fn read_points(path: &Path, reading: &FileReading) -> Result<Vec<Grain>, PointsError> {
     let file = path.display().to_string();
-    match std::fs::read_to_string(path) {
-        Ok(text) => parse_points(&file, &text, reading),
-        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => Err(PointsError::Missing { file }),
-        Err(reason) => Err(PointsError::Unreadable { file, reason }),
+    let grains = match reading.format {
+        PointsFormat::Vtk => vtk::read(path, reading, &[]),
+        PointsFormat::Run => vtk::read_run(path, reading),
+        _ => match std::fs::read_to_string(path) {
+            Ok(text) => parse_points(&file, &text, reading),
+            Err(reason) => Err(unread(path, reason)),
+        },
+    }?;
+    if grains.is_empty() {
+        return Err(PointsError::Empty { file });
+    }
+    Ok(grains)
+}
+
+fn read_bytes(path: &Path) -> Result<Vec<u8>, PointsError> {
+    std::fs::read(path).map_err(|reason| unread(path, reason))
+}
+
+fn unread(path: &Path, reason: std::io::Error) -> PointsError {
+    let file = path.display().to_string();
+    match reason.kind() {
+        std::io::ErrorKind::NotFound => PointsError::Missing { file },
+        _ => PointsError::Unreadable { file, reason },
     }
 }
 
+/// The particles of a file that is text.
 fn parse_points(file: &str, text: &str, reading: &FileReading) -> Result<Vec<Grain>, PointsError> {
     let text = text.trim_start_matches('\u{feff}');
-    let grains = match reading.format {
-        PointsFormat::Table => table::parse(file, text, reading),
+    match reading.format {
         PointsFormat::LammpsDump => dump::parse(file, text, reading),
         PointsFormat::LammpsData => lammps_data::parse(file, text, reading),
         PointsFormat::Xyz => xyz::parse(file, text, reading),
-    }?;
-    if grains.is_empty() {
-        return Err(PointsError::Empty { file: file.to_owned() });
+        _ => table::parse(file, text, reading),
     }
-    Ok(grains)
 }
 
 #[cfg(test)]

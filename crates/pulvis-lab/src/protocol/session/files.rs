@@ -126,7 +126,14 @@ impl Session {
             Some(index) => index,
             None => {
                 let precision = Precision::Double;
-                let writer = (format.open)(&Series { folder, name: "", precision, contacts, resume: None })?;
+                let writer = (format.open)(&Series {
+                    folder,
+                    name: "",
+                    precision,
+                    compressed: false,
+                    contacts,
+                    resume: None,
+                })?;
                 let writer = Mutex::new(writer);
                 outputs.push(Output { folder: folder.to_owned(), format: format.name, contacts, writer });
                 outputs.len() - 1
