@@ -32,6 +32,7 @@ mod pace;
 mod packed;
 mod particle_sums;
 mod particles;
+mod pen;
 mod programs;
 mod ranks;
 mod refusal;

@@ -1,11 +1,12 @@
 //! Particles and contacts as files for other programs.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use pulvis_core::Simulation;
 use pulvis_input::scenario::{Interval, Scenario, Snapshots as SnapshotPlan};
 use pulvis_io::IoError;
-use pulvis_io::frames::{self, FramePosition, FrameWriter, Instant, Precision, Series};
+use pulvis_io::frames::{self, FramePosition, FrameWriter, Precision, Series};
 use pulvis_io::table::SeriesPosition;
 use serde::{Deserialize, Serialize};
 
@@ -14,16 +15,17 @@ use super::folder::OutputFolder;
 use super::frame::{Selection, selected_frame};
 use super::outlines::bounds;
 use super::pace::Due;
+use super::pen::{Page, Pen};
 
 /// The files that the key `vtk` asks for, and those of every block `[[output.files]]`.
 pub(super) struct Snapshots<'a> {
     blocks: Vec<Block<'a>>,
-    materials: Vec<String>,
+    materials: Arc<[String]>,
 }
 
 /// Files of one format.
 struct Block<'a> {
-    writer: Box<dyn FrameWriter>,
+    pen: Pen,
     selection: Selection<'a>,
     /// When it is time, beside the starts and ends of stages.
     due: Option<Due>,
@@ -86,7 +88,7 @@ pub(super) fn plans(scenario: &Scenario) -> Vec<Plan<'_>> {
     plans
 }
 
-fn materials(scenario: &Scenario) -> Vec<String> {
+fn materials(scenario: &Scenario) -> Arc<[String]> {
     scenario.materials.iter().map(|material| material.name.clone()).collect()
 }
 
@@ -99,9 +101,9 @@ impl<'a> Snapshots<'a> {
     ) -> Result<Self, IoError> {
         let mut blocks = Vec::new();
         for plan in plans(scenario) {
-            let writer = open(&plan, folder, None)?;
+            let pen = Pen::new(open(&plan, folder, None)?);
             let due = plan.every.map(|every| Due::from_now(every, simulation));
-            blocks.push(Block { writer, selection: plan.selection, due, last_step: None });
+            blocks.push(Block { pen, selection: plan.selection, due, last_step: None });
         }
         Ok(Self { blocks, materials: materials(scenario) })
     }
@@ -116,19 +118,27 @@ impl<'a> Snapshots<'a> {
         for (plan, record) in plans(scenario).into_iter().zip(records) {
             let files = record.files.iter().map(|&(bytes, hash)| SeriesPosition { bytes, hash });
             let position = FramePosition { frames: record.frames, files: files.collect() };
-            let writer = open(&plan, folder, Some(&position))?;
+            let pen = Pen::new(open(&plan, folder, Some(&position))?);
             let due = plan.every.map(|every| Due::resume(every, record.due));
-            blocks.push(Block { writer, selection: plan.selection, due, last_step: record.last_step });
+            blocks.push(Block { pen, selection: plan.selection, due, last_step: record.last_step });
         }
         Ok(Self { blocks, materials: materials(scenario) })
     }
 
-    /// How far all blocks have come.
+    /// Waits until all that has been asked for is written.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub(super) fn settle(&mut self) -> Result<(), IoError> {
+        self.blocks.iter_mut().try_for_each(|block| block.pen.settle())
+    }
+
+    /// How far all blocks have come; waits until what they write is written.
     pub(super) fn record(&mut self) -> Result<Vec<BlockRecord>, IoError> {
         let Self { blocks, materials: _ } = self;
         let record = |block: &mut Block<'_>| {
-            let Block { writer, selection: _, due, last_step } = block;
-            let FramePosition { frames, files } = writer.position()?;
+            let Block { pen, selection: _, due, last_step } = block;
+            let FramePosition { frames, files } = pen.position()?;
             let files = files.into_iter().map(|SeriesPosition { bytes, hash }| (bytes, hash)).collect();
             let due = due.as_ref().map_or(0, Due::count);
             Ok(BlockRecord { frames, files, due, last_step: *last_step })
@@ -138,7 +148,7 @@ impl<'a> Snapshots<'a> {
 
     /// Names of the files that every instant changes.
     pub(super) fn growing(&self) -> Vec<String> {
-        self.blocks.iter().flat_map(|block| block.writer.growing()).collect()
+        self.blocks.iter().flat_map(|block| block.pen.growing().iter().cloned()).collect()
     }
 
     /// When it is time for something.
@@ -157,7 +167,7 @@ impl<'a> Snapshots<'a> {
         blocks.iter_mut().try_for_each(|block| block.write(scenario, simulation, materials, output))
     }
 
-    /// Writes the present state to those blocks whose time it is.
+    /// Writes the present state to those blocks whose time it is, and tells what has gone wrong with earlier ones.
     pub(super) fn write_due(
         &mut self,
         scenario: &Scenario,
@@ -166,6 +176,7 @@ impl<'a> Snapshots<'a> {
     ) -> Result<(), RunError> {
         let Self { blocks, materials } = self;
         for block in blocks {
+            block.pen.look()?;
             if block.due.as_mut().is_some_and(|due| due.now(simulation)) {
                 block.write(scenario, simulation, materials, output)?;
             }
@@ -179,20 +190,21 @@ impl Block<'_> {
         &mut self,
         scenario: &Scenario,
         simulation: &Simulation,
-        materials: &[String],
+        materials: &Arc<[String]>,
         output: &mut OutputFolder,
     ) -> Result<(), RunError> {
         if self.last_step == Some(simulation.steps()) {
             return Ok(());
         }
         self.last_step = Some(simulation.steps());
+        self.pen.settle()?;
         let frame = selected_frame(scenario, simulation, &self.selection);
-        let (time, step) = (simulation.time(), simulation.steps());
-        let instant = Instant { time, step, bounds: bounds(scenario, simulation), materials, frame: &frame };
-        for name in self.writer.next_files(&instant) {
+        let (time, step, bounds) = (simulation.time(), simulation.steps(), bounds(scenario, simulation));
+        let page = Page { time, step, bounds, materials: Arc::clone(materials), frame };
+        for name in self.pen.next_files(&page) {
             output.file(&name)?;
         }
-        Ok(self.writer.write(&instant)?)
+        Ok(self.pen.write(page)?)
     }
 }
 

@@ -38,6 +38,7 @@ impl Run<'_> {
     /// Completes the files of a run that has ended or that the user has stopped.
     pub(super) fn finish(&mut self, interrupted: Option<StageResult>) -> Result<RunSummary, RunError> {
         self.writer.flush()?;
+        self.snapshots.settle()?;
         let energy_error_max = self.rows.largest_error();
         let averages = self.averages()?;
         let pictures = self.draw()?;
