@@ -15,7 +15,7 @@ pub fn run_all() -> Outcome {
         println!("skipped: the page of `pulvis view` is not tested in a browser, {why}");
         Ok(())
     };
-    let node = ["-e", "process.exit(Number(process.versions.node.split('.')[0]) < 20)"];
+    let node = ["-e", "process.exit(Number(process.versions.node.split('.')[0]) < 20 ? 1 : 0)"];
     if !works(Command::new("node").args(node)) {
         return skipped("there is no Node.js 20 or newer here");
     }

@@ -218,7 +218,12 @@ async function run() {
   const cut = await shot();
   await page.getByLabel("contacts by force").check();
   await settled(page);
-  check("contacts change the picture", !(await shot()).equals(cut));
+  const network = await shot();
+  check("contacts change the picture", !network.equals(cut));
+  await page.getByLabel("surfaces of walls").uncheck();
+  await settled(page);
+  check("walls are shown and can be hidden", !(await shot()).equals(network));
+  check("hidden walls are in the address", page.url().includes("walls=0"), page.url());
   await page.locator(".viewport > canvas").press("z");
   await settled(page);
   check("the camera is in the address", page.url().includes("camera="), page.url());
@@ -247,6 +252,20 @@ async function exported(folder) {
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   await settled(page);
   check("a click tells the values of a particle", /particle \d+/.test((await page.locator(".picked").textContent()) ?? ""));
+  await page.locator(".player input").fill(await page.locator(".player input").getAttribute("max"));
+  await settled(page);
+  // Those at the top may be flying.
+  let told = "";
+  for (let place = 0; place < 40 && !told.includes("normal force"); place += 1) {
+    await page.mouse.click(box.x + box.width * (0.3 + 0.05 * (place % 8)), box.y + box.height * (0.5 + 0.06 * Math.floor(place / 8)));
+    await settled(page);
+    told = (await page.locator(".picked").textContent()) ?? "";
+  }
+  check("and its contacts", /normal force/.test(told) && / N/.test(told), told);
+  await page.locator(".picked button.link").nth(1).click();
+  await settled(page);
+  const other = (await page.locator(".picked").textContent()) ?? "";
+  check("from which one goes on to the other particle", other !== told && /particle \d+/.test(other), other);
   await picture(page, "exported");
   await close(page, "exported");
 }

@@ -51,7 +51,11 @@ export class LookPanel {
           look.scale = value / 100;
           this.view.render();
         }),
-        contactsBox),
+        element("div", {}, contactsBox),
+        this.view.frame?.triangles.length ? element("div", {}, tick("surfaces of walls", look.walls, (on) => {
+          look.walls = on;
+          this.view.render();
+        }, "half transparent; their edges are always there")) : null),
       element("section", { class: "law" },
         choice("Cut", clips, look.clip, (name) => {
           look.clip = name;

@@ -35,7 +35,7 @@ export class RunView {
   constructor(source, run) {
     Object.assign(this, { source, run });
     this.camera = new Camera();
-    this.look = { number: 0, column: "v", map: "viridis", scale: 1, contacts: false, clip: "none", cut: 50, range: null, chosen: -1 };
+    this.look = { number: 0, column: "v", map: "viridis", scale: 1, contacts: false, walls: true, clip: "none", cut: 50, range: null, chosen: -1 };
     this.grown = -Infinity;
     this.quality = 1;
     this.before = -Infinity;
@@ -73,6 +73,7 @@ export class RunView {
     const { times } = this.run;
     for (const key of ["column", "map", "clip"]) if (hash.has(key)) this.look[key] = hash.get(key);
     this.scene.setMap(this.look.map);
+    if (hash.get("walls") === "0") this.look.walls = false;
     if (hash.has("contacts")) Object.assign(this.look, { contacts: true, scale: 0.35 });
     const wanted = hash.has("frame") ? Number(hash.get("frame")) : times.length - 1;
     this.follow = !hash.has("frame");
@@ -332,6 +333,7 @@ export class RunView {
       clip: this.clip(),
       chosen: look.chosen,
       contacts: look.contacts ? TUBE * mean : 0,
+      walls: look.walls,
       ink: colour("--faint"),
       ground: colour("--scene"),
       mark: colour("--series-B"),
@@ -372,6 +374,7 @@ export class RunView {
     const hash = new URLSearchParams({ column: look.column, map: look.map, camera: this.camera.text() });
     if (!this.follow) hash.set("frame", look.number);
     if (look.contacts) hash.set("contacts", 1);
+    if (!look.walls) hash.set("walls", 0);
     if (look.clip !== "none") hash.set("clip", look.clip);
     history.replaceState(null, "", `#${hash}`);
   }

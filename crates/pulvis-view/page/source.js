@@ -49,8 +49,9 @@ export class Server {
     const wanted = column ? `&column=${encodeURIComponent(column)}` : "";
     const response = await asked(`api/frame?number=${number}${wanted}`);
     const { header, numbers } = unpack(await response.arrayBuffer(), "PVP1");
-    const [positions, radii, values, walls, wallRadii] = parts(numbers, [3 * header.particles, header.particles, header.particles, 6 * header.walls, header.walls]);
-    return { ...header, positions, radii, values, walls, wallRadii };
+    const { particles, walls: lines } = header;
+    const [positions, radii, values, walls, wallRadii, triangles] = parts(numbers, [3 * particles, particles, particles, 6 * lines, lines, 9 * header.triangles]);
+    return { ...header, positions, radii, values, walls, wallRadii, triangles };
   }
 
   async contacts(number) {
@@ -103,6 +104,7 @@ export class Embedded {
       values,
       walls: floats(frame.walls),
       wallRadii: floats(frame.wall_radii),
+      triangles: floats(this.data.surfaces[frame.surface]),
     };
   }
 
@@ -115,6 +117,20 @@ export class Embedded {
     const frame = this.data.frames[number];
     const positions = floats(frame.positions);
     const columns = frame.names.map(({ name }) => ({ name, value: this.column(number, name)[row] }));
-    return { row, id: columns.find((one) => one.name === "id")?.value ?? null, position: [...positions.subarray(3 * row, 3 * row + 3)], columns, contacts: [] };
+    const id = columns.find((one) => one.name === "id")?.value ?? null;
+    return { row, id, position: [...positions.subarray(3 * row, 3 * row + 3)], columns, contacts: id === null ? [] : this.contactsOf(number, id) };
+  }
+
+  /** As the server tells them: the other's id and row, or the number of the wall. */
+  contactsOf(number, id) {
+    const { bodies: [first, second], forces, overlaps } = this.data.frames[number];
+    const [ids, force, overlap] = [this.column(number, "id"), floats(forces), floats(overlaps)];
+    const own = first.map((one, place) => place).filter((place) => first[place] === id || second[place] === id);
+    return own.map((place) => {
+      const other = first[place] === id ? second[place] : first[place];
+      const row = ids.indexOf(other);
+      const columns = [{ name: "normal_force", value: force[place] }, { name: "overlap", value: overlap[place] }];
+      return { id: other >= 0 ? other : null, row: row >= 0 ? row : null, wall: other < 0 ? -1 - other : null, columns };
+    });
   }
 }

@@ -113,6 +113,30 @@ uniform vec3 ink;
 out vec4 colour;
 void main() { colour = vec4(ink, 1.0); }`;
 
+const SURFACE_VERTICES = `#version 300 es
+in vec3 centre;
+uniform mat4 view, projection;
+out vec3 place, seen;
+void main() {
+  place = centre;
+  seen = (view * vec4(centre, 1.0)).xyz;
+  gl_Position = projection * vec4(seen, 1.0);
+}`;
+
+const SURFACE_FRAGMENTS = `#version 300 es
+precision highp float;
+in vec3 place, seen;
+uniform vec4 clip;
+uniform vec3 ink;
+out vec4 colour;
+void main() {
+  if (dot(clip.xyz, place) > clip.w) discard;
+  // Both sides of a wall are seen: what faces the eye is lighter and shows more of what is behind.
+  vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
+  float facing = abs(dot(normal, normalize(seen)));
+  colour = vec4(ink, 0.3 - 0.2 * facing);
+}`;
+
 /** Sides of a circle. */
 const SIDES = 64;
 
@@ -174,14 +198,16 @@ export class Scene {
     this.spheres = program(gl, SPHERE_VERTICES, SPHERE_FRAGMENTS);
     this.tubes = program(gl, TUBE_VERTICES, TUBE_FRAGMENTS);
     this.lines = program(gl, LINE_VERTICES, LINE_FRAGMENTS);
+    this.surfaces = program(gl, SURFACE_VERTICES, SURFACE_FRAGMENTS);
     this.corner = this.buffer(new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
-    const [centre, radius, value, ends, force, wall] = Array.from({ length: 6 }, () => gl.createBuffer());
-    this.buffers = { centre, radius, value, ends, force, wall };
+    const [centre, radius, value, ends, force, wall, triangle] = Array.from({ length: 7 }, () => gl.createBuffer());
+    this.buffers = { centre, radius, value, ends, force, wall, triangle };
     this.sphereArrays = this.arrays(this.spheres.made, [["corner", this.corner, 2, 0, 0, 0], ["centre", centre, 3, 1, 0, 0], ["radius", radius, 1, 1, 0, 0], ["value", value, 1, 1, 0, 0]]);
     this.tubeArrays = this.arrays(this.tubes.made, [["corner", this.corner, 2, 0, 0, 0], ["from", ends, 3, 1, 24, 0], ["to", ends, 3, 1, 24, 12], ["force", force, 1, 1, 0, 0]]);
     this.lineArrays = this.arrays(this.lines.made, [["centre", wall, 3, 0, 0, 0]]);
+    this.surfaceArrays = this.arrays(this.surfaces.made, [["centre", triangle, 3, 0, 0, 0]]);
     this.texture = gl.createTexture();
-    this.count = { spheres: 0, tubes: 0, lines: 0 };
+    this.count = { spheres: 0, tubes: 0, lines: 0, corners: 0 };
     this.setMap("viridis");
   }
 
@@ -213,7 +239,7 @@ export class Scene {
     gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.DYNAMIC_DRAW);
   }
 
-  setFrame({ positions, radii, values, walls, wallRadii }) {
+  setFrame({ positions, radii, values, walls, wallRadii, triangles }) {
     this.fill("centre", positions);
     this.fill("radius", radii);
     this.fill("value", values);
@@ -221,6 +247,8 @@ export class Scene {
     this.fill("wall", lines);
     this.count.spheres = radii.length;
     this.count.lines = lines.length / 3;
+    this.fill("triangle", triangles);
+    this.count.corners = triangles.length / 3;
   }
 
   setContacts({ ends, forces }) {
@@ -237,7 +265,7 @@ export class Scene {
     for (const [key, value] of [[gl.TEXTURE_MIN_FILTER, gl.NEAREST], [gl.TEXTURE_MAG_FILTER, gl.NEAREST], [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE]]) gl.texParameteri(gl.TEXTURE_2D, key, value);
   }
 
-  /** `look`: `camera`, `quality` (pixels to the pixel), `range`, `scale`, `clip` (normal and offset), `chosen`, `contacts` (width), `ink`, `ground`. */
+  /** `look`: `camera`, `quality` (pixels to the pixel), `range`, `scale`, `clip` (normal and offset), `chosen`, `contacts` (width), `walls` (whether their surfaces are shown), `ink`, `ground`. */
   draw(look) {
     const { gl, canvas } = this;
     const dense = Math.min(window.devicePixelRatio || 1, 2) * look.quality;
@@ -284,6 +312,16 @@ export class Scene {
     const line = begin(this.lines, this.lineArrays);
     gl.uniform3fv(line.ink, look.ink);
     gl.drawArrays(gl.LINES, 0, count.lines);
+    if (!look.walls || count.corners === 0) return;
+    // What is half transparent comes last, and hides nothing.
+    const surface = begin(this.surfaces, this.surfaceArrays);
+    gl.uniform3fv(surface.ink, look.ink);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    gl.depthMask(false);
+    gl.drawArrays(gl.TRIANGLES, 0, count.corners);
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
   }
 
   /** The row of the particle at a point of the canvas in CSS pixels, or -1. */

@@ -6,7 +6,7 @@ use crate::run::{Run, column_names, scalars};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use pulvis_io::checkpoint::write_text;
-use pulvis_io::vtk::{Frame, PolyData};
+use pulvis_io::vtk::{Frame, Numbers, PolyData};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -15,6 +15,9 @@ const MOST_NUMBERS: usize = 8_000_000;
 
 /// More frames make no smoother film.
 const MOST_FRAMES: usize = 200;
+
+/// Two ends, normal force, overlap, and both bodies.
+const NUMBERS_OF_A_CONTACT: usize = 10;
 
 /// What was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,15 +45,23 @@ pub fn export(folder: &Path, file: &Path) -> Result<ExportSummary, ViewError> {
     // The last frame is as large as any, unless particles leave.
     let (_, sample) = run.frame(last)?.ok_or_else(no_frames)?;
     let particles = sample.particles.points.len() * (3 + sample.particles.columns.len());
-    let contacts = sample.contacts.points.len() / 2 * 7;
+    let contacts = sample.contacts.points.len() / 2 * NUMBERS_OF_A_CONTACT;
     let one_of = particles.div_ceil(MOST_NUMBERS).max(1);
     let fitting = (MOST_NUMBERS / (particles + contacts).max(1)).clamp(1, MOST_FRAMES);
     let chosen = evenly(count, fitting);
     let with_contacts = particles + contacts <= MOST_NUMBERS;
     let mut frames = Vec::new();
+    // Walls that do not move are there once.
+    let mut surfaces: Vec<String> = Vec::new();
     for number in &chosen {
         if let Some((time, frame)) = run.frame(*number)? {
-            frames.push(embedded(time, &frame, one_of, with_contacts));
+            let triangles = packed(frame.surfaces.points.as_flattened());
+            if surfaces.last() != Some(&triangles) {
+                surfaces.push(triangles);
+            }
+            let mut one = embedded(time, &frame, one_of, with_contacts);
+            one["surface"] = json!(surfaces.len() - 1);
+            frames.push(one);
         }
     }
     let mut summary = run.summary()?;
@@ -58,7 +69,7 @@ pub fn export(folder: &Path, file: &Path) -> Result<ExportSummary, ViewError> {
     summary["one_of"] = json!(one_of);
     summary["frames_of_run"] = json!(count);
     let series = run.series().map(|series| series.all());
-    let data = json!({ "run": summary, "series": series, "frames": frames });
+    let data = json!({ "run": summary, "series": series, "frames": frames, "surfaces": surfaces });
     let text = page(&data);
     write_text(file, &text).map_err(ViewError::Write)?;
     Ok(ExportSummary { frames: chosen.len(), frames_of_run: count, one_of, bytes: text.len() })
@@ -81,7 +92,12 @@ fn embedded(time: f64, frame: &Frame, one_of: usize, with_contacts: bool) -> Val
     let numbers = columns.iter().map(|(_, numbers)| packed(&kept(scalars(numbers)))).collect::<Value>();
     let walls = frame.walls.lines();
     let contacts = if with_contacts { frame.contacts.points.as_slice() } else { &[] };
-    let forces = frame.contacts.scalar("normal_force").filter(|_| with_contacts).unwrap_or_default();
+    let of_contacts = |name: &str| frame.contacts.column(name).filter(|_| with_contacts);
+    let numbers_of = |name: &str| of_contacts(name).map(scalars).unwrap_or_default();
+    let bodies = |name: &str| match of_contacts(name) {
+        Some(Numbers::Integer(ids)) => ids.as_slice(),
+        _ => &[],
+    };
     json!({
         "time": time,
         "particles": positions.len() / 3,
@@ -91,7 +107,9 @@ fn embedded(time: f64, frame: &Frame, one_of: usize, with_contacts: bool) -> Val
         "walls": packed(walls.as_flattened().as_flattened()),
         "wall_radii": packed(&frame.walls.scalar("radius").unwrap_or_else(|| vec![0.0; walls.len()])),
         "contacts": packed(contacts.as_flattened()),
-        "forces": packed(&forces),
+        "forces": packed(&numbers_of("normal_force")),
+        "overlaps": packed(&numbers_of("overlap")),
+        "bodies": [bodies("id1"), bodies("id2")],
     })
 }
 

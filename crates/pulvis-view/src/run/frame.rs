@@ -11,8 +11,8 @@ pub(crate) type Columns<'a> = &'a [(String, Numbers)];
 
 /// Particles, walls, and the values of a column by which particles are coloured; `None` where there is no such column.
 ///
-/// Header: `time`, `particles`, `walls`, `columns`. Numbers: 3 coordinates, radius and value of each particle, one array after
-/// another; 6 coordinates and a radius of each line of the walls.
+/// Header: `time`, `particles`, `walls`, `triangles`, `columns`. Numbers: 3 coordinates, radius and value of each particle, one
+/// array after another; 6 coordinates and a radius of each line of the walls; 9 coordinates of each triangle of their surfaces.
 pub(super) fn particles(time: f64, frame: &Frame, column: Option<&str>) -> Option<Vec<u8>> {
     let particles = &frame.particles;
     let count = particles.points.len();
@@ -27,11 +27,18 @@ pub(super) fn particles(time: f64, frame: &Frame, column: Option<&str>) -> Optio
         "time": time,
         "particles": count,
         "walls": lines.len(),
+        "triangles": frame.surfaces.points.len() / 3,
         "contacts": frame.contacts.points.len() / 2,
         "columns": column_names(&particles.columns),
     });
-    let parts: [&[f64]; 5] =
-        [particles.points.as_flattened(), &radii, &values, lines.as_flattened().as_flattened(), &wall_radii];
+    let parts: [&[f64]; 6] = [
+        particles.points.as_flattened(),
+        &radii,
+        &values,
+        lines.as_flattened().as_flattened(),
+        &wall_radii,
+        frame.surfaces.points.as_flattened(),
+    ];
     Some(packed("PVP1", &header, &parts))
 }
 
@@ -94,7 +101,9 @@ mod tests {
                 ("v".to_owned(), Numbers::Vector(vec![[3.0, 0.0, 4.0], [0.0, 0.0, -2.0]])),
             ],
         };
-        let frame = Frame { particles, ..Frame::default() };
+        let surfaces =
+            PolyData { points: vec![[0.0, 0.0, 7.0], [1.0, 0.0, 7.0], [0.0, 1.0, 7.0]], columns: vec![] };
+        let frame = Frame { particles, surfaces, ..Frame::default() };
         let bytes = super::particles(0.125, &frame, Some("v")).unwrap();
         let length = u32::from_le_bytes(bytes[4..8].try_into().unwrap()) as usize;
         assert_eq!((&bytes[..4], length % 4), (&b"PVP1"[..], 0));
@@ -104,7 +113,9 @@ mod tests {
             .chunks_exact(4)
             .map(|four| f32::from_le_bytes(four.try_into().unwrap()))
             .collect();
-        assert_eq!(numbers, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 0.5, 0.25, 5.0, 2.0]);
+        assert_eq!(numbers[..10], [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 0.5, 0.25, 5.0, 2.0]);
+        assert_eq!(header["triangles"].as_u64(), Some(1));
+        assert_eq!(numbers[10..], [0.0, 0.0, 7.0, 1.0, 0.0, 7.0, 0.0, 1.0, 7.0]);
         assert_eq!(super::particles(0.0, &frame, Some("w")), None);
     }
 }
