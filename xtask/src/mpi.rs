@@ -155,7 +155,7 @@ impl Library {
             let is_begun = folder.join("run.toml").exists();
             let ranks = 2 + random.below(3) as usize;
             let mut child = if is_begun {
-                self.start(program, ranks, &["run", "--resume"], &[folder.clone()])?
+                self.start(program, ranks, &["run", "--resume"], std::slice::from_ref(&folder))?
             } else {
                 std::fs::create_dir_all(place).map_err(|error| error.to_string())?;
                 let paths = [scenario(), "--force".into(), "--output".into(), folder.clone()];
@@ -180,7 +180,7 @@ impl Library {
         }
         let folder = place.join(run_number.to_string());
         if folder.join("run.toml").exists() {
-            let mut child = self.start(program, 3, &["run", "--resume"], &[folder.clone()])?;
+            let mut child = self.start(program, 3, &["run", "--resume"], std::slice::from_ref(&folder))?;
             same(wait(&mut child, LONGEST)?, 0, "the last run that went on")?;
             compare(&files(&folder)?, expected, &format!("after {killed} kills"))?;
         }

@@ -1,4 +1,5 @@
 //! How far ranks reach: surfaces of orders, a model of the time of a step, and the messages of many virtual ranks.
+#![allow(clippy::disallowed_methods)] // no bit of a simulation is made here
 
 mod model;
 mod network;

@@ -67,19 +67,18 @@ impl Scenario {
     }
 
     fn write_grains(&self, writer: &mut Writer, grains: &[Grain]) {
-        fn given<'g, T>(
-            grains: &'g [Grain],
-            quantity: impl Fn(&Grain) -> Option<T> + 'g,
-        ) -> impl Iterator<Item = T> + 'g {
-            grains.iter().filter_map(move |grain| quantity(grain))
-        }
         writer.key("kind", text("list"));
         writer.key("positions", list(grains.iter().map(|grain| vector(grain.position, Dimension::LENGTH))));
-        let radii = given(grains, |grain| grain.radius).map(|radius| quantity(radius, Dimension::LENGTH));
+        let radii =
+            grains.iter().filter_map(|grain| grain.radius).map(|radius| quantity(radius, Dimension::LENGTH));
         let velocities =
-            given(grains, |grain| grain.velocity).map(|speed| vector(speed, Dimension::VELOCITY));
-        let spins = given(grains, |grain| grain.angular_velocity).map(|spin| vector(spin, Dimension::RATE));
-        let materials = given(grains, |grain| grain.material).map(|index| self.material_text(index));
+            grains.iter().filter_map(|grain| grain.velocity).map(|speed| vector(speed, Dimension::VELOCITY));
+        let spins = grains
+            .iter()
+            .filter_map(|grain| grain.angular_velocity)
+            .map(|spin| vector(spin, Dimension::RATE));
+        let materials =
+            grains.iter().filter_map(|grain| grain.material).map(|index| self.material_text(index));
         let lists: [(&str, Vec<String>); 4] = [
             ("radii", radii.collect()),
             ("velocities", velocities.collect()),
