@@ -11,7 +11,7 @@ use self::model::{Machine, ROWS_PER_FACE, Sharing, efficiency, halo_rows, reach,
 use self::network::Network;
 use self::orders::{Order, Reading, ranks_of_cells, readings};
 
-/// What a machine is like. What is not given was measured: see the book's page "How far ranks reach".
+/// What a machine is like; where from, the book says on its page "On a cluster".
 #[derive(Args, Clone, Debug)]
 pub(crate) struct Options {
     /// Time of a step for each particle of a rank, lists among it [ns].
@@ -24,10 +24,10 @@ pub(crate) struct Options {
     #[arg(long, default_value_t = 10.0)]
     bandwidth: f64,
     /// Steps between two lists [1].
-    #[arg(long, default_value_t = 40.0)]
+    #[arg(long, default_value_t = 200.0)]
     list_steps: f64,
     /// Work at a list for each row of another rank that is sorted in [ns].
-    #[arg(long, default_value_t = 40.0)]
+    #[arg(long, default_value_t = 100.0)]
     foreign_row: f64,
     /// How much more than the mean the slowest rank works [1].
     #[arg(long, default_value_t = 0.02)]
