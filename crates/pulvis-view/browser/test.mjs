@@ -110,6 +110,8 @@ async function laboratory() {
   const probe = csv(execFileSync(pulvis, ["probe", await saved(page, "probe.toml"), "--format", "csv"], { encoding: "utf8" }));
   check("`pulvis probe` takes the file of the path", probe("force").length > 400, probe("force").length);
   execFileSync(pulvis, ["collide", await saved(page, "one-collision.toml")]);
+  await limits(page);
+  await map(page);
   const before = [await line(page, 0), await drawn(page)];
   await page.locator("section.law input[type=range]").first().press("ArrowRight");
   for (let times = 0; times < 40; times += 1) await page.locator("section.law input[type=range]").first().press("ArrowRight");
@@ -150,6 +152,45 @@ async function laboratory() {
   check("nothing is wider than a small screen", wide <= 390, wide);
   await picture(narrow, "laboratory-narrow");
   await close(narrow, "narrow");
+}
+
+/** Lines at the limits of the paper, with η = 4, β = 1 and v_p in the file that the page hands out: S1 (34), (37). */
+async function limits(page) {
+  const told = await page.evaluate(() => [...document.querySelectorAll(".limit title")].map((title) => title.textContent));
+  const velocity = (symbol) => Number(told.find((text) => text.startsWith(`${symbol} = `))?.split(" ")[2]);
+  const [onset, end, plastic] = ["v_c^(b)", "v_c^(c)", "v_p"].map(velocity);
+  check("limits are drawn at χ = 1/2, 2/√3 and 1", Math.abs(onset / plastic - 0.5) < 1e-4 && Math.abs(end / plastic - 2 / Math.sqrt(3)) < 1e-4, told.join(" | "));
+}
+
+/** What the pointer reads off the map against `pulvis collide` of the file that the page hands out, and a click. */
+async function map(page) {
+  const table = csv(execFileSync(pulvis, ["collide", await saved(page, "map.toml"), "--format", "csv"], { encoding: "utf8" }));
+  const expected = table("restitution_theory").map(Number);
+  const [columns, rows] = [49, 33];
+  check("the file of the map has all its collisions", expected.length === columns * rows, expected.length);
+  await page.locator(".heat").scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => document.querySelector(".wide h3").textContent.includes("closed form"));
+  await settled(page);
+  const box = await page.locator(".heat").boundingBox();
+  // The margins of a chart: 62 and 14 pixels across, 10 and 44 up.
+  const spot = (column, row) => [box.x + 62 + ((box.width - 76) * column) / (columns - 1), box.y + box.height - 44 - ((box.height - 54) * row) / (rows - 1)];
+  const wrong = [];
+  for (const [column, row] of [[3, 2], [20, 10], [30, 16], [34, 20], [35, 24], [36, 30], [38, 28], [40, 12], [44, 25], [47, 8]]) {
+    await page.mouse.move(...spot(column, row));
+    const read = (await page.locator(".wide .readout").textContent()).split(": ")[1];
+    const value = expected[row * columns + column];
+    const same = value === 0 ? read === "sticks" : Math.abs(Number(read.replace("e = ", "")) - value) <= 0.5e-4;
+    if (!same) wrong.push(`${column},${row}: ${read}, not ${value}`);
+  }
+  check("the map reads as `pulvis collide` computes", wrong.length === 0, wrong.join(" | "));
+  check("where the pair sticks the map is hatched", (await page.locator(".heat rect[fill*=hatch]").count()) > 10);
+  const velocity = () => page.getByLabel("velocity", { exact: true }).inputValue();
+  const before = await velocity();
+  await page.mouse.click(...spot(20, 10));
+  await settled(page);
+  check("a click in the map chooses velocity and parameter", (await velocity()) !== before && Number(await page.getByLabel("k_c", { exact: true }).inputValue()) < 50);
+  await page.mouse.click(...spot(30, 16));
+  await settled(page);
 }
 
 /** Every normal law, and every preset, without a complaint. */

@@ -1,15 +1,31 @@
 // Charts in SVG: lines and points over linear or logarithmic axes, with a crosshair that reads values.
 
-import { element, logLabel, logTicks, number, scale, ticks } from "./format.js";
+import { element, logLabel, logTicks, number, scale, ticks, unitText } from "./format.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-const MARGIN = { left: 62, right: 14, top: 10, bottom: 44 };
+export const MARGIN = { left: 62, right: 14, top: 10, bottom: 44 };
 const GAP = 0.06;
 
-function svg(name, attributes = {}, text) {
+/** Height of a row of labels above the plot, and how far apart two of them must be in one row. */
+const LABEL = { height: 14, gap: 6, letter: 7 };
+
+export function svg(name, attributes = {}, text) {
   const made = document.createElementNS(SVG, name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
   if (text !== undefined) made.textContent = text;
+  return made;
+}
+
+/** A symbol like `v_c^(b)` as text with parts that stand lower and higher. */
+export function symbolText(symbol, attributes) {
+  const made = svg("text", attributes);
+  let height = 0;
+  for (const part of symbol.split(/(?=[_^])/)) {
+    const wanted = { _: 3, "^": -5 }[part[0]] ?? 0;
+    const size = wanted === 0 ? {} : { "font-size": "80%" };
+    made.append(svg("tspan", { dy: wanted - height, ...size }, part.replace(/^[_^]/, "")));
+    height = wanted;
+  }
   return made;
 }
 
@@ -42,7 +58,7 @@ class Axis {
       }
       if (padded) [low, high] = [low - GAP * (high - low), high + GAP * (high - low)];
     }
-    Object.assign(this, { low, high, pixels });
+    Object.assign(this, { low, high, pixels, unit });
     this.scaled = log ? { factor: 1, unit: scale(unit, 1).unit } : scale(unit, Math.max(Math.abs(low), Math.abs(high)));
   }
 
@@ -86,22 +102,22 @@ export class Chart {
     }
   }
 
-  /** `series`: `{name, x, y, colour, dashed, points}`; `markers`: `{x, colour}`; `bands`: `{low, high}`; `note`. */
+  /** `series`: `{name, x, y, colour, dashed, points}`; `markers`: `{x}`; `bands`: `{low, high}`; `limits`: `{x, symbol, meaning, colour}`; `note`. */
   show(content) {
     this.content = content;
     if (content.title) this.title.textContent = content.title;
     this.draw();
   }
 
-  axes(width, height) {
-    const { series, x, y } = { ...this.options, ...this.content };
+  axes(width, height, own = {}) {
+    const { series, x, y } = { ...this.options, ...this.content, ...own };
     const positive = (list) => list.map((value) => (value > 0 ? value : null));
-    const xs = extent(series.map((one) => (x.log ? positive(one.x) : one.x)));
-    const ys = extent([...series.map((one) => one.y), ...(y.include ? [y.include] : [])]);
+    const xs = x.range ?? extent(series.map((one) => (x.log ? positive(one.x) : one.x)));
+    const ys = y.range ?? extent([...series.map((one) => one.y), ...(y.include ? [y.include] : [])]);
     if (!xs || !ys) return null;
     return {
-      x: new Axis(x.range ?? xs, [MARGIN.left, width - MARGIN.right], x.log ?? false, x.unit, !x.log && !x.tight),
-      y: new Axis(y.range ?? ys, [height - MARGIN.bottom, MARGIN.top], false, y.unit, !y.range),
+      x: new Axis(xs, [MARGIN.left, width - MARGIN.right], x.log ?? false, x.unit, !x.log && !x.tight),
+      y: new Axis(ys, [height - MARGIN.bottom, this.top], y.log ?? false, y.unit, !y.range && !y.log),
     };
   }
 
@@ -110,10 +126,17 @@ export class Chart {
     const height = this.plot.clientHeight;
     if (width < 80 || height < 80) return;
     const picture = svg("svg", { width, height, role: "img", "aria-label": this.description() });
+    this.top = MARGIN.top;
     this.drawn = this.axes(width, height);
     if (this.drawn) {
+      const labels = this.placeLabels(width);
+      if (labels.rows > 0) {
+        this.top = MARGIN.top + 2 + LABEL.height * labels.rows;
+        this.drawn = this.axes(width, height);
+      }
       this.drawBands(picture, height);
       this.drawAxes(picture, width, height);
+      this.drawLimits(picture, height, labels.placed);
       this.drawSeries(picture);
       this.drawMarkers(picture, height);
     } else {
@@ -128,7 +151,8 @@ export class Chart {
   description() {
     const names = this.content.series.map((one) => one.name).filter(Boolean).join(", ");
     const { x, y } = { ...this.options, ...this.content };
-    return `${this.title.textContent}: ${y.label} over ${x.label}${names ? `; ${names}` : ""}`;
+    const limits = (this.content.limits ?? []).map((one) => `${one.symbol} = ${number(one.x, 4)} ${x.unit}`).join(", ");
+    return `${this.title.textContent}: ${y.label} over ${x.label}${names ? `; ${names}` : ""}${limits ? `; ${limits}` : ""}`;
   }
 
   label(axis) {
@@ -141,7 +165,7 @@ export class Chart {
     const grid = svg("g", { class: "grid" });
     for (const [value, text] of x.ticks(Math.max(3, Math.floor(width / 90)))) {
       const at = x.place(value);
-      grid.append(svg("line", { x1: at, x2: at, y1: MARGIN.top, y2: height - MARGIN.bottom }));
+      grid.append(svg("line", { x1: at, x2: at, y1: this.top, y2: height - MARGIN.bottom }));
       grid.append(svg("text", { x: at, y: height - MARGIN.bottom + 16, "text-anchor": "middle" }, text));
     }
     for (const [value, text] of y.ticks(Math.max(3, Math.floor(height / 50)))) {
@@ -151,7 +175,7 @@ export class Chart {
       grid.append(svg("text", { x: MARGIN.left - 7, y: at + 4, "text-anchor": "end" }, text));
     }
     const middle = (MARGIN.left + width - MARGIN.right) / 2;
-    const centre = (MARGIN.top + height - MARGIN.bottom) / 2;
+    const centre = (this.top + height - MARGIN.bottom) / 2;
     grid.append(svg("text", { x: middle, y: height - 8, class: "axis", "text-anchor": "middle" }, this.label("x")));
     grid.append(
       svg("text", { x: 14, y: centre, class: "axis", "text-anchor": "middle", transform: `rotate(-90 14 ${centre})` }, this.label("y")),
@@ -166,12 +190,43 @@ export class Chart {
       const from = x.place(inside(band.low ?? x.low));
       const to = x.place(inside(band.high ?? x.high));
       if (to - from < 0.5) continue;
-      const rectangle = svg("rect", { x: from, width: to - from, y: MARGIN.top, height: height - MARGIN.top - MARGIN.bottom, fill: band.colour, class: "band" });
+      const rectangle = svg("rect", { x: from, width: to - from, y: this.top, height: height - this.top - MARGIN.bottom, fill: band.colour, class: "band" });
       rectangle.append(svg("title", {}, band.label));
       picture.append(rectangle);
       if (to - from > 46) {
-        picture.append(svg("text", { x: (from + to) / 2, y: MARGIN.top + 14 + 14 * (band.row ?? 0), class: "bandlabel", "text-anchor": "middle" }, band.label));
+        picture.append(svg("text", { x: (from + to) / 2, y: this.top + 30 + 14 * (band.row ?? 0), class: "bandlabel", "text-anchor": "middle" }, band.label));
       }
+    }
+  }
+
+  /** Limits that are in sight, each with the row of its label: labels that would touch stand in rows. */
+  placeLabels(width) {
+    const { x } = this.drawn;
+    const ends = [];
+    const inSight = (this.content.limits ?? []).filter((one) => one.x >= x.low && one.x <= x.high).sort((a, b) => a.x - b.x);
+    const placed = inSight.map((limit) => {
+      const wide = LABEL.letter * limit.symbol.replace(/[_^]/g, "").length;
+      const at = Math.min(Math.max(x.place(limit.x), MARGIN.left + wide / 2), width - MARGIN.right - wide / 2);
+      let row = ends.findIndex((end) => at - wide / 2 > end + LABEL.gap);
+      if (row < 0) row = ends.length;
+      ends[row] = at + wide / 2;
+      return { limit, at, row };
+    });
+    return { placed, rows: ends.length };
+  }
+
+  drawLimits(picture, height, placed) {
+    const { x } = this.drawn;
+    for (const { limit, at, row } of placed) {
+      const across = x.place(limit.x);
+      const foot = this.top - 4 - LABEL.height * row;
+      const group = svg("g", { class: "limit" });
+      group.append(svg("title", {}, `${limit.symbol} = ${number(limit.x, 5)} ${unitText(x.unit)}: ${limit.meaning}`));
+      group.append(svg("line", { x1: across, x2: across, y1: foot + 1, y2: height - MARGIN.bottom, stroke: limit.colour }));
+      // A wider one that the pointer finds.
+      group.append(svg("line", { x1: across, x2: across, y1: foot, y2: height - MARGIN.bottom, class: "handle" }));
+      group.append(symbolText(limit.symbol, { x: at, y: foot - 2, "text-anchor": "middle", fill: limit.colour }));
+      picture.append(group);
     }
   }
 
@@ -202,7 +257,7 @@ export class Chart {
     for (const marker of this.content.markers ?? []) {
       if (!(marker.x >= x.low && marker.x <= x.high)) continue;
       const at = x.place(marker.x);
-      picture.append(svg("line", { x1: at, x2: at, y1: MARGIN.top, y2: height - MARGIN.bottom, class: "marker" }));
+      picture.append(svg("line", { x1: at, x2: at, y1: this.top, y2: height - MARGIN.bottom, class: "marker" }));
     }
   }
 
@@ -252,7 +307,8 @@ export class Chart {
   click(event) {
     if (!this.drawn) return;
     const box = this.plot.getBoundingClientRect();
-    const { x } = this.drawn;
-    this.options.pick(Math.min(Math.max(x.value(event.clientX - box.left), x.low), x.high));
+    const { x, y } = this.drawn;
+    const inside = (axis, pixel) => Math.min(Math.max(axis.value(pixel), axis.low), axis.high);
+    this.options.pick(inside(x, event.clientX - box.left), inside(y, event.clientY - box.top));
   }
 }

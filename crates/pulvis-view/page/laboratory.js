@@ -3,6 +3,7 @@
 
 import { Chart } from "./chart.js";
 import { element, number, packed, quantity } from "./format.js";
+import { StickingMap } from "./map.js";
 import { LETTERS, MOTION_LABELS, Panel } from "./panel.js";
 import { collideText, MOTIONS, pathOf, probeText } from "./scenario.js";
 
@@ -25,7 +26,8 @@ export class Laboratory {
     const energies = new Chart({ title: "Energies of the collision", x: { label: "time t", unit: "s", tight: true }, y: { label: "energy", unit: "J", include: [0] } });
     const path = new Chart({ title: "Force over overlap on a path", x: { label: "overlap δ", unit: "m" }, y: { label: "force f", unit: "N", include: [0] } });
     this.charts = { loop, restitution, energies, path };
-    const charts = element("div", { class: "charts" }, ...Object.values(this.charts).map((chart) => chart.root));
+    this.map = new StickingMap(this);
+    const charts = element("div", { class: "charts" }, ...Object.values(this.charts).map((chart) => chart.root), this.map.chart.root);
     this.root = element("section", { class: "laboratory", id: "laboratory" }, this.panel.root, element("div", { class: "stage" }, this.results, this.message, charts));
     this.pending = { dirty: false, busy: false };
   }
@@ -130,6 +132,15 @@ export class Laboratory {
     this.changed();
   }
 
+  /** A place of the map: velocity, and value of the parameter that is varied. */
+  pickPoint(velocity, value) {
+    const axis = this.map.axis();
+    this.state.contacts[this.panel.edited].laws[axis.role].values[axis.name] = Number(value.toPrecision(4));
+    this.state.velocity = Number(velocity.toPrecision(4));
+    this.panel.build();
+    this.changed();
+  }
+
   // Computation: one question of a kind at a time, and always the latest state
 
   changed() {
@@ -151,14 +162,14 @@ export class Laboratory {
     this.pending.busy = false;
     this.root.dataset.busy = "false";
     clearTimeout(this.resting);
-    this.resting = setTimeout(() => this.searchSticking(), REST);
+    this.resting = setTimeout(() => this.rest(), REST);
     history.replaceState(null, "", `#lab=${packed(this.state)}`);
   }
 
   async redraw(began) {
     const { state, laws } = this;
     const asked = [this.source.collide(collideText(state, laws), state.velocity, true), state.probe ? this.source.probe(probeText(state, laws)) : null];
-    const [collision, path] = await Promise.allSettled(asked);
+    const [collision, path, map] = await Promise.allSettled([...asked, this.map.redraw()]);
     const failures = [];
     if (collision.status === "fulfilled") this.drawCollision(collision.value);
     else if (this.retryByEngine(collision.reason)) return;
@@ -168,6 +179,7 @@ export class Laboratory {
       if (this.retryInTime(path.reason)) return;
       failures.push(path.reason.message);
     }
+    if (map.status === "rejected") failures.push(map.reason.message);
     this.complain(failures.length ? new Error([...new Set(failures)].join("\n")) : null);
     if (began !== null) this.took = performance.now() - began;
     this.root.dataset.took = this.took?.toFixed(1);
@@ -238,7 +250,8 @@ export class Laboratory {
     ]);
     const line = ({ velocity, restitution, colour }) => ({ x: velocity, y: restitution, colour, dashed: false });
     const bare = contacts.filter((contact) => !contact.theory.velocity.length).map(line);
-    this.restitution = { series: [...bare, ...restitution], markers: [{ x: this.state.velocity }] };
+    const limits = contacts.flatMap(({ limits, colour, number }) => limits.map((limit) => ({ ...limit, x: limit.velocity, symbol: this.name(number, limit.symbol), colour })));
+    this.restitution = { series: [...bare, ...restitution], markers: [{ x: this.state.velocity }], limits };
     this.charts.restitution.show({ ...this.restitution, bands: this.bands });
     this.charts.loop.show({
       title: `Force over overlap at ${quantity(this.state.velocity, "m/s")}`,
@@ -278,6 +291,11 @@ export class Laboratory {
         notes: motion === "overlap" ? curve.branch : undefined,
       })),
     });
+  }
+
+  async rest() {
+    await this.searchSticking();
+    await this.map.refine();
   }
 
   async searchSticking() {

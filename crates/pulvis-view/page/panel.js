@@ -40,6 +40,7 @@ export class Panel {
       ...this.contact(this.edited),
       this.bodies(),
       this.motionControls(),
+      this.mapControls(),
       element(
         "div",
         { class: "buttons" },
@@ -47,6 +48,7 @@ export class Panel {
         button("collide.toml", () => download("collide.toml", collideText(state, this.lab.laws)), { title: "Download the scenario of the restitution curve for `pulvis collide`" }),
         button("one-collision.toml", () => download("one-collision.toml", courseText(state, this.lab.laws)), { title: "Download the scenario of the collision that is drawn for `pulvis collide`" }),
         button("probe.toml", () => download("probe.toml", probeText(state, this.lab.laws)), { title: "Download the scenario of the path for `pulvis probe`", disabled: !state.probe }),
+        button("map.toml", () => download("map.toml", this.lab.map.file()), { title: "Download the scenario of the sticking map for `pulvis collide`", disabled: !this.lab.map.axis() }),
         button("open a file …", () => file.click(), { title: "Open a scenario for `pulvis collide` or `pulvis probe`" }),
         file,
       ),
@@ -58,6 +60,7 @@ export class Panel {
       button(`Contact ${LETTERS[number]}`, () => {
         this.edited = number;
         this.build();
+        this.lab.changed();
       }, { class: `tab swatch-${LETTERS[number]}`, "aria-pressed": this.edited === number });
     const tabs = this.lab.state.compare ? [tab(0), tab(1)] : [];
     return element("div", { class: "tabs" }, ...tabs, tick("compare two contacts", this.lab.state.compare, (wanted) => this.lab.compare(wanted)));
@@ -148,6 +151,46 @@ export class Panel {
       ...own,
       ...warm,
     );
+  }
+
+  /** Which parameter the sticking map varies, and how far. */
+  mapControls() {
+    const { lab } = this;
+    const section = element("section", { class: "law" }, element("h3", {}, "Sticking map"));
+    const axis = lab.map.axis();
+    if (!axis) return section;
+    const parameters = lab.map.parameters();
+    const several = new Set(parameters.map(({ role }) => role)).size > 1;
+    const change = (values) => {
+      Object.assign(lab.state.map, values);
+      lab.changed();
+    };
+    const names = parameters.map(({ key, name, role, meaning }) => [key, several ? `${name} (${role})` : name, meaning]);
+    const end = (name, meaning) => new Quantity({ name, unit: axis.unit, meaning, range: axis.range, change: (value) => change({ [name]: value }) }, axis[name]);
+    this.mapEnds = [end("from", "lower end of the parameter in the map"), end("to", "upper end of the parameter in the map")];
+    section.append(
+      choice("Parameter", names, axis.key, (key) => {
+        lab.state.map.key = key;
+        lab.state.map.from = Infinity;
+        this.build();
+        lab.changed();
+      }),
+      ...this.mapEnds.map((one) => one.root),
+      element("div", { class: "tabs" },
+        tick("log parameter", axis.log, (log) => {
+          lab.state.map = { ...lab.state.map, ...lab.map.around(axis, log) };
+          this.build();
+          lab.changed();
+        }, "equal ratios of the parameter, not equal differences"),
+        tick("log velocity", axis.velocityLog, (velocityLog) => change({ velocityLog }), "equal ratios of the velocity, not equal differences")),
+    );
+    return section;
+  }
+
+  /** The map has chosen another range, since the value has left the old one. */
+  showMapEnds({ from, to }) {
+    this.mapEnds?.[0].set(from);
+    this.mapEnds?.[1].set(to);
   }
 
   motionControls() {

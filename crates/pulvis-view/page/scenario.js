@@ -29,13 +29,14 @@ function list(values, unit) {
   return values.length === 1 ? toml(values[0], unit) : `[${values.map((value) => toml(value, unit)).join(", ")}]`;
 }
 
-function table(head, role, own, laws) {
+/** `forced`: the name of a parameter that is written even if it has its default. */
+function table(head, role, own, laws, forced) {
   const entry = laws.find((law) => law.role === role && (CHOICES.includes(role) || law.name === own.law));
   const lines = [`[${head}.${role}]`];
   if (!CHOICES.includes(role)) lines.push(`law = "${own.law}"`);
   for (const parameter of entry?.parameters ?? []) {
     const value = own.values[parameter.name];
-    if (value === null || value === undefined || value === parameter.default) continue;
+    if (value === null || value === undefined || (value === parameter.default && parameter.name !== forced)) continue;
     lines.push(`${parameter.name} = ${toml(value, parameter.options ? undefined : parameter.unit)}`);
   }
   return lines.length > 1 || !CHOICES.includes(role) ? `${lines.join("\n")}\n` : "";
@@ -51,7 +52,7 @@ function contacts(state, laws) {
     else if (state.compare) lines.push(`[contact]\nlabel = "A"\n`);
     for (const role of [...ROLES, ...CHOICES]) {
       const own = contact.laws[role];
-      if (own) lines.push(table(head, role, own, laws));
+      if (own) lines.push(table(head, role, own, laws, state.forced?.role === role ? state.forced.name : undefined));
       // What is left out would be that of the first contact.
       else if (number > 0 && ROLES.includes(role) && shown[0].laws[role]) lines.push(`[compare.${role}]\nlaw = "none"\n`);
     }
@@ -104,6 +105,20 @@ export function courseText(state, laws) {
   if (state.method === "engine") lines.push(`method = "engine"`);
   lines.push(`velocity = ${toml(state.velocity, "m/s")}`, "");
   return [...lines, ...contacts(state, laws)].join("\n").trimStart();
+}
+
+/** The file for `pulvis collide` with the collisions of a row of the map, of one contact; with `values`, of all its rows. */
+export function mapText(state, laws, number, axis, points, values) {
+  const contact = structuredClone(state.contacts[number]);
+  // The same text wherever the slider of this parameter stands.
+  contact.laws[axis.role].values[axis.name] = axis.from;
+  const own = { ...state, laws, compare: false, contacts: [contact], forced: axis };
+  const lines = head(own, "collision");
+  if (state.method === "engine") lines.push(`method = "engine"`);
+  const [from, to] = state.speeds;
+  lines.push("", "[collision.sweep]", `variable = "velocity"`, `from = ${toml(from, "m/s")}`, `to = ${toml(to, "m/s")}`, `points = ${points}`, `spacing = "${axis.velocityLog ? "log" : "linear"}"`, "");
+  if (values) lines.push("[collision.family]", `variable = "contact.${axis.key}"`, `values = [${values.join(", ")}]`, "");
+  return [...lines, ...contacts(own, laws)].join("\n").trimStart();
 }
 
 /** The file for `pulvis probe`: the path. */

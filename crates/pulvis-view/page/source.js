@@ -41,6 +41,7 @@ export class Server {
   read = (text) => send("api/state", text);
   collide = (text, velocity, quick) => send(`api/collide?velocity=${velocity}${quick ? "&quick=1" : ""}`, text);
   sticking = (text) => send("api/sticking", text);
+  map = (text, { parameter, values, stride = 1, row_stride = 1, known = 0 }) => send(`api/map?parameter=${encodeURIComponent(parameter)}&values=${values.join(",")}&stride=${stride}&row_stride=${row_stride}&known=${known}`, text);
   probe = (text) => send("api/probe", text);
   run = () => json("api/run");
   particle = (number, row) => json(`api/particle?number=${number}&row=${row}`);

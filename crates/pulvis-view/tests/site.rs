@@ -105,6 +105,104 @@ fn closed_form_and_limits_of_sticking_are_those_of_the_paper() {
     assert!((low - 0.5).abs() < 1e-12 && (high - 2.0 / 3.0_f64.sqrt()).abs() < 1e-12, "{low} {high}");
 }
 
+/// The values of the adhesion of a map [N/m], and the file with them as a second variable.
+fn map_file(more: &str) -> (&'static str, String) {
+    let values = "10,33,100,1000";
+    let text = experiment("figures/s1-06/restitution.toml").replace("points = 40", "points = 9");
+    let family = format!(
+        "[collision.family]\nvariable = \"contact.normal.kc\"\nvalues = [{values}]\n\n[contact.normal]"
+    );
+    (values, text.replace("[contact.normal]", &family) + more)
+}
+
+/// The file without its second variable.
+fn without_family(text: &str) -> String {
+    let (head, tail) = text.split_once("[collision.family]").unwrap();
+    format!("{head}[contact.normal]{}", tail.split_once("[contact.normal]").unwrap().1)
+}
+
+#[test]
+fn the_sticking_map_holds_the_closed_forms_of_pulvis_collide() {
+    let (values, text) = map_file("");
+    let scenario = CollisionScenario::from_document(&Document::from_str("map.toml", &text).unwrap()).unwrap();
+    let expected: Vec<f64> =
+        sweep(&scenario, false).unwrap().iter().map(|point| point.theory.unwrap().restitution).collect();
+    // A closed form gives all of the map, however coarse it may be.
+    let target = format!("/api/map?parameter=contact.normal.kc&values={values}&stride=4&row_stride=2");
+    let map = json(&laboratory(), "POST", &target, &without_family(&text));
+    assert_eq!(map["from"], "closed form");
+    let found: Vec<f64> = map["restitution"].as_array().unwrap().iter().flat_map(numbers).collect();
+    close(&found, &expected);
+    assert!(found.contains(&0.0) && found.iter().any(|value| *value > 0.9), "{found:?}");
+    // S1 (34) and (37) with η = 4 in units of v_p: no sticking below β* = 1/3, which 33 N/m does not reach.
+    let scale = scenario.cases[0].velocity / 0.003;
+    let line = |symbol: &str| {
+        let lines = map["limits"].as_array().unwrap();
+        let line = lines.iter().find(|line| line["symbol"] == symbol).unwrap();
+        [numbers(&line["value"]), numbers(&line["velocity"])]
+    };
+    for (symbol, chi) in [
+        ("v_c^(b)", (|beta| (1.0 + beta) / (4.0 * beta)) as fn(f64) -> f64),
+        ("v_c^(c)", |beta| (4.0 * (1.0 + beta) / (5.0 + beta)).sqrt()),
+    ] {
+        let [values, velocities] = line(symbol);
+        assert_eq!(values, [100.0, 1000.0]);
+        let expected: Vec<f64> = values.iter().map(|kc| scale * chi(kc / 100.0)).collect();
+        for (found, expected) in velocities.iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 1e-12, "{symbol}: {found} {expected}");
+        }
+    }
+    assert_eq!(line("v_p")[0], [10.0, 33.0, 100.0, 1000.0]);
+}
+
+#[test]
+fn a_sticking_map_without_closed_form_is_refined_to_the_collisions_of_pulvis_collide() {
+    let (values, text) = map_file("[contact.viscosity]\nlaw = \"constant\"\ngamma_0 = \"1e-3 kg/s\"\n");
+    let scenario = CollisionScenario::from_document(&Document::from_str("map.toml", &text).unwrap()).unwrap();
+    let expected: Vec<f64> =
+        sweep(&scenario, false).unwrap().iter().map(|point| point.collision.outcome.restitution).collect();
+    let ask = |values: &str, grid: &str| {
+        let target = format!("/api/map?parameter=contact.normal.kc&values={values}&{grid}");
+        json(&laboratory(), "POST", &target, &without_family(&text))
+    };
+    let coarse = ask(values, "stride=4&row_stride=2");
+    assert_eq!((&coarse["from"], &coarse["limits"]), (&Value::from("collisions"), &serde_json::json!([])));
+    let computed = |map: &Value, row: usize| -> Vec<(usize, f64)> {
+        let cells = map["restitution"][row].as_array().cloned().unwrap_or_default();
+        cells.iter().enumerate().filter_map(|(column, cell)| Some((column, cell.as_f64()?))).collect()
+    };
+    assert!(computed(&coarse, 1).is_empty() && computed(&coarse, 3).is_empty());
+    let fine = ask("10,100", "stride=1&known=4");
+    for (place, row) in [0, 2].into_iter().enumerate() {
+        let mut both = [computed(&coarse, row), computed(&fine, place)].concat();
+        both.sort_by_key(|(column, _)| *column);
+        let (columns, found): (Vec<usize>, Vec<f64>) = both.into_iter().unzip();
+        assert_eq!(columns, [0, 1, 2, 3, 4, 5, 6, 7, 8], "each collision once");
+        close(&found, &expected[9 * row..9 * row + 9]);
+    }
+}
+
+#[test]
+fn values_that_a_law_does_not_take_leave_their_rows_empty() {
+    let text = experiment("figures/s1-06/restitution.toml");
+    let map = json(&laboratory(), "POST", "/api/map?parameter=contact.normal.kp&values=50,500", &text);
+    assert_eq!(map["allowed"], serde_json::json!([false, true]));
+    assert!(map["restitution"][0].is_null() && map["restitution"][1].is_array());
+    assert!(map["refused"].as_str().unwrap().contains("kp"), "{}", map["refused"]);
+    for (target, told) in [
+        ("/api/map?values=1", "`parameter` is missing"),
+        ("/api/map?parameter=contact.normal.kp", "`values` is missing"),
+        ("/api/map?parameter=contact.normal.kp&values=1,a", "list of numbers"),
+        ("/api/map?parameter=contact.normal.kp&values=50", "kp"),
+        ("/api/map?parameter=contact.normal.x&values=50", "x"),
+    ] {
+        let answer = laboratory().answer(&question("POST", target, &text));
+        let message = String::from_utf8(answer.body).unwrap();
+        assert_eq!(answer.status, 422, "{target}");
+        assert!(message.contains(told), "{target}: {message}");
+    }
+}
+
 #[test]
 fn the_laboratory_draws_the_path_of_pulvis_probe() {
     let text = experiment("figures/s1-02/branches.toml");

@@ -11,6 +11,7 @@ mod engine;
 mod error;
 mod exact;
 mod extrapolation;
+mod limits;
 mod oblique;
 mod outcome;
 mod picture;
@@ -20,6 +21,7 @@ mod table;
 
 pub use closed_form::{ClosedForm, closed_form};
 pub use error::CollisionError;
+pub use limits::{VelocityLimit, velocity_limits};
 pub use oblique::{ObliqueOutcome, ObliqueSample};
 pub use outcome::{Collision, Observation, Outcome, Regime, Sample, Sampling};
 pub(crate) use picture::{case_label, drawn_course, fine_cases, sticking_limits};

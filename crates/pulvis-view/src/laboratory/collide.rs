@@ -1,10 +1,11 @@
 //! Collisions over a range of velocities, and the course of one of them.
 
+use super::parallel::in_parallel;
 use super::{column, document, words};
 use pulvis_input::collision::{CollisionCase, CollisionScenario, Method};
 use pulvis_lab::collision::{
-    Collision, Observation, Outcome, Regime, Sample, Sampling, closed_form, collide, sampling_interval,
-    typical_speed,
+    Collision, Observation, Outcome, Regime, Sample, Sampling, VelocityLimit, closed_form, collide,
+    sampling_interval, typical_speed, velocity_limits,
 };
 use pulvis_math::elementary;
 use serde_json::{Value, json};
@@ -15,9 +16,6 @@ const BETWEEN: usize = 8;
 
 /// A redraw that takes longer is shown as far as it has come.
 const PATIENCE: Duration = Duration::from_millis(1500);
-
-/// Threads of one question: the collisions of a curve do not depend on each other.
-const THREADS: usize = 4;
 
 /// Steps after which the integration of one collision is given up: strongly damped pairs creep.
 const MOST_STEPS: u64 = 200_000;
@@ -39,6 +37,7 @@ pub(super) fn answer(text: &str, velocity: Option<f64>, quick: bool) -> super::O
         let mut value = curves(&cases, began, quick);
         value["label"] = json!(scenario.labels.get(number));
         value["method"] = json!(if first.method == Method::Exact { "exact" } else { "engine" });
+        value["limits"] = velocity_limits(first).iter().map(limit).collect();
         value["typical_speed"] = json!(typical_speed(first.bodies, &first.contact, &first.surroundings));
         if let Some(velocity) = velocity {
             value["course"] = course(&CollisionCase { value: velocity, velocity, ..first.clone() });
@@ -47,6 +46,10 @@ pub(super) fn answer(text: &str, velocity: Option<f64>, quick: bool) -> super::O
     };
     let contacts: Value = (0..scenario.labels.len()).filter_map(contact).collect();
     Ok(json!({ "contacts": contacts, "seconds": began.elapsed().as_secs_f64() }))
+}
+
+fn limit(limit: &VelocityLimit) -> Value {
+    json!({ "symbol": limit.symbol, "meaning": limit.meaning, "velocity": limit.velocity })
 }
 
 /// Outcomes over velocity, and the closed form on a finer grid.
@@ -90,17 +93,8 @@ fn computed(
         }
         collide(case, observation).map(|collision| collision.outcome).map_err(|error| error.to_string())
     };
-    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(THREADS);
-    // Each takes every so-manieth: slow collisions lie side by side.
-    let share =
-        |thread: usize| cases.iter().skip(thread).step_by(threads).map(|case| one(case)).collect::<Vec<_>>();
-    let shares: Vec<Vec<_>> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads).map(|thread| scope.spawn(move || share(thread))).collect();
-        workers.into_iter().map(|worker| worker.join().unwrap_or_default()).collect()
-    });
-    let mut shares: Vec<_> = shares.into_iter().map(Vec::into_iter).collect();
     let lost = || Err("a collision could not be computed".to_owned());
-    (0..cases.len()).map(|number| shares[number % threads].next().unwrap_or_else(lost)).collect()
+    in_parallel(cases, |case| one(case)).into_iter().map(|outcome| outcome.unwrap_or_else(lost)).collect()
 }
 
 /// The velocities, and more between them in equal ratios.

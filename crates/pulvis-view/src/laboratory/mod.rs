@@ -3,6 +3,8 @@
 
 mod catalogue;
 mod collide;
+mod map;
+mod parallel;
 mod presets;
 mod probe;
 mod state;
@@ -33,6 +35,7 @@ pub(crate) fn answer(name: &str, question: &Question) -> Option<Answer> {
             let quick = question.parameter("quick").is_some();
             collide::answer(&question.body, number(question, "velocity"), quick)
         }
+        ("map", false) => map::answer(question),
         ("sticking", false) => sticking::answer(&question.body),
         ("probe", false) => probe::answer(&question.body),
         _ => return None,
