@@ -45,8 +45,8 @@ function extent(lists) {
 }
 
 class Axis {
-  constructor(range, pixels, log, unit, padded) {
-    this.log = log;
+  constructor(range, pixels, log, unit, padded, given) {
+    Object.assign(this, { log, given });
     let [low, high] = range;
     if (log) {
       low = Math.max(low, 1e-300);
@@ -77,6 +77,7 @@ class Axis {
   ticks(wanted) {
     if (this.log) return logTicks(this.low, this.high).map((value) => [value, logLabel(value)]);
     const { factor } = this.scaled;
+    if (this.given) return this.given.map((value) => [value, number(value)]);
     return ticks(this.low / factor, this.high / factor, wanted).map((value) => [value * factor, number(value, 6)]);
   }
 }
@@ -116,7 +117,7 @@ export class Chart {
     const ys = y.range ?? extent([...series.map((one) => one.y), ...(y.include ? [y.include] : [])]);
     if (!xs || !ys) return null;
     return {
-      x: new Axis(xs, [MARGIN.left, width - MARGIN.right], x.log ?? false, x.unit, !x.log && !x.tight),
+      x: new Axis(xs, [MARGIN.left, width - MARGIN.right], x.log ?? false, x.unit, !x.log && !x.tight, x.ticks),
       y: new Axis(ys, [height - MARGIN.bottom, this.top], y.log ?? false, y.unit, !y.range && !y.log),
     };
   }

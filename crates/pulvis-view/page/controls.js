@@ -9,7 +9,7 @@ const STEPS = 1000;
 const DECADES = 2;
 
 /** Where a parameter has no size of its own to begin with, by unit. */
-const TYPICAL = { "N/m": 100, "kg/s": 1e-3, Pa: 1e8, "1": 0.3, m: 1e-6, s: 1e-4, N: 1e-6, "J/m^2": 0.1, "m/s": 0.1, K: 300, "1/s": 100, C: 1e-12 };
+const TYPICAL = { "N/m": 100, "kg/s": 1e-3, Pa: 1e8, "1": 0.3, m: 1e-6, s: 1e-4, N: 1e-6, "J/m^2": 0.1, "m/s": 0.1, K: 300, "1/s": 100, "rad/s": 100, C: 1e-12 };
 
 let serial = 0;
 
@@ -58,8 +58,8 @@ export class Quantity {
   show(value) {
     const { log, low, high } = this.scale;
     const share = log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
-    // The lowest notch is zero where zero is allowed.
-    this.slider.value = value === 0 ? 0 : Math.round(Math.min(Math.max(share, 0), 1) * STEPS);
+    // Over powers of ten, the lowest notch is zero where zero is allowed.
+    this.slider.value = log && value === 0 ? 0 : Math.round(Math.min(Math.max(share, 0), 1) * STEPS);
     this.field.value = value === Infinity ? "inf" : number(value, 5);
     this.slider.setAttribute("aria-valuetext", `${this.field.value} ${this.options.unit}`);
   }

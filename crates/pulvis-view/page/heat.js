@@ -1,10 +1,16 @@
 // A map: colours over two axes, cells that stick hatched, limits as lines, and the point where one is.
 
-import { at } from "./colour.js";
+import { table } from "./colour.js";
 import { Chart, MARGIN, svg, symbolText } from "./chart.js";
 import { element, number } from "./format.js";
 
-const MAP = "viridis";
+/** Colours of restitution from 0 to 1, four bytes each. */
+const COLOURS = table("viridis");
+
+function colour(share) {
+  const place = 4 * Math.round(255 * Math.min(Math.max(share, 0), 1));
+  return COLOURS.subarray(place, place + 4);
+}
 
 let serial = 0;
 
@@ -70,7 +76,7 @@ export class HeatChart extends Chart {
           from = null;
         }
         if (value === null || value === undefined) continue;
-        image.data.set([...at(MAP, value), 255], 4 * ((cells.y.length - 1 - row) * cells.x.length + column));
+        image.data.set(colour(value), 4 * ((cells.y.length - 1 - row) * cells.x.length + column));
       }
     });
     context.putImageData(image, 0, 0);
@@ -132,7 +138,7 @@ export class HeatChart extends Chart {
 
   drawLegend() {
     const strip = svg("svg", { width: 96, height: 10, "aria-hidden": "true" });
-    for (let place = 0; place < 24; place += 1) strip.append(svg("rect", { x: 4 * place, width: 4.5, height: 10, fill: `rgb(${at(MAP, place / 23).join(",")})` }));
+    for (let place = 0; place < 24; place += 1) strip.append(svg("rect", { x: 4 * place, width: 4.5, height: 10, fill: `rgb(${colour(place / 23).subarray(0, 3).join(",")})` }));
     const mark = svg("svg", { width: 22, height: 10, "aria-hidden": "true" });
     if (this.drawn) mark.append(svg("rect", { width: 22, height: 10, fill: `url(#${this.id}-hatch)` }));
     const entries = [element("span", {}, "e = 0", strip, "1"), element("span", {}, mark, "sticks")];

@@ -4,8 +4,12 @@
 import { Chart } from "./chart.js";
 import { element, number, packed, quantity } from "./format.js";
 import { StickingMap } from "./map.js";
+import { ObliqueCharts } from "./oblique.js";
 import { LETTERS, MOTION_LABELS, Panel } from "./panel.js";
-import { collideText, MOTIONS, pathOf, probeText } from "./scenario.js";
+import { collideText, MOTIONS, obliqueText, pathOf, probeText } from "./scenario.js";
+
+/** An impact under an angle, as the laboratory begins with it. */
+const OBLIQUE = { on: false, angle: 30, spins: [0, 0] };
 
 /** How long hands must rest before limits of sticking are searched [ms]. */
 const REST = 150;
@@ -27,15 +31,17 @@ export class Laboratory {
     const path = new Chart({ title: "Force over overlap on a path", x: { label: "overlap δ", unit: "m" }, y: { label: "force f", unit: "N", include: [0] } });
     this.charts = { loop, restitution, energies, path };
     this.map = new StickingMap(this);
-    const charts = element("div", { class: "charts" }, ...Object.values(this.charts).map((chart) => chart.root), this.map.chart.root);
-    this.root = element("section", { class: "laboratory", id: "laboratory" }, this.panel.root, element("div", { class: "stage" }, this.results, this.message, charts));
+    this.oblique = new ObliqueCharts(this);
+    this.stage = element("div", { class: "charts" });
+    this.root = element("section", { class: "laboratory", id: "laboratory" }, this.panel.root, element("div", { class: "stage", tabindex: 0, role: "region", "aria-label": "Numbers and charts" }, this.results, this.message, this.stage));
     this.pending = { dirty: false, busy: false };
   }
 
   async open(saved) {
     [this.laws, this.presets] = await Promise.all([this.source.laws(), this.source.presets()]);
     if (saved) {
-      this.state = saved;
+      this.state = { oblique: structuredClone(OBLIQUE), ...saved };
+      this.arrange();
       this.panel.build();
       this.changed();
       return;
@@ -44,6 +50,31 @@ export class Laboratory {
   }
 
   // What is shown
+
+  /** The charts of head-on collisions, or of those under an angle. */
+  arrange() {
+    const headOn = [...Object.values(this.charts), this.map.chart];
+    const shown = this.state.oblique.on ? this.oblique.charts : headOn;
+    this.stage.replaceChildren(...shown.map((chart) => chart.root));
+  }
+
+  /** The contacts that are shown. */
+  shown() {
+    return this.state.contacts.slice(0, this.state.compare ? 2 : 1);
+  }
+
+  setOblique(on) {
+    this.state.oblique.on = on;
+    this.arrange();
+    this.panel.build();
+    this.changed();
+  }
+
+  pickAngle(value) {
+    this.state.oblique.angle = Number(Math.min(Math.max(value, 0), 89).toPrecision(3));
+    this.panel.angle.set(this.state.oblique.angle);
+    this.changed();
+  }
 
   async preset(index) {
     const preset = this.presets[index];
@@ -65,7 +96,9 @@ export class Laboratory {
       const motion = state.probe ? MOTIONS.findLast(({ place }) => state.probe.poses.some((pose) => pose[place] !== 0)).key : "overlap";
       const contacts = state.contacts.slice(0, 2);
       this.state = { ...state, contacts, speeds, motion, title, compare: contacts.length > 1, method: "exact" };
-      this.state.velocity = Math.min(Math.max(0.34 * scale, speeds[0]), speeds[1]);
+      this.state.velocity = state.oblique?.velocity ?? Math.min(Math.max(0.34 * scale, speeds[0]), speeds[1]);
+      this.state.oblique = state.oblique ? { on: true, angle: state.oblique.angle, spins: state.oblique.spins } : structuredClone(OBLIQUE);
+      this.arrange();
       this.panel.edited = 0;
       this.panel.build();
       this.changed();
@@ -167,37 +200,66 @@ export class Laboratory {
   }
 
   async redraw(began) {
-    const { state, laws } = this;
-    const asked = [this.source.collide(collideText(state, laws), state.velocity, true), state.probe ? this.source.probe(probeText(state, laws)) : null];
-    const [collision, path, map] = await Promise.allSettled([...asked, this.map.redraw()]);
-    const failures = [];
-    if (collision.status === "fulfilled") this.drawCollision(collision.value);
-    else if (this.retryByEngine(collision.reason)) return;
-    else failures.push(collision.reason.message);
-    if (path.status === "fulfilled" && path.value) this.drawPath(path.value);
-    else if (path.status === "rejected") {
-      if (this.retryInTime(path.reason)) return;
-      failures.push(path.reason.message);
-    }
-    if (map.status === "rejected") failures.push(map.reason.message);
+    const failures = this.state.oblique.on ? await this.redrawOblique(true) : await this.redrawHeadOn();
+    // Asked otherwise at once.
+    if (failures === null) return;
     this.complain(failures.length ? new Error([...new Set(failures)].join("\n")) : null);
     if (began !== null) this.took = performance.now() - began;
     this.root.dataset.took = this.took?.toFixed(1);
     this.drawResults();
   }
 
+  /** Draws collisions under an angle; answers with what went wrong. */
+  async redrawOblique(quick) {
+    const { state, laws } = this;
+    try {
+      const answer = await this.source.oblique(obliqueText(state, laws), state.oblique.angle, quick);
+      this.slanted = answer;
+      this.oblique.show(answer);
+      return [];
+    } catch (error) {
+      return [error.message];
+    }
+  }
+
+  async redrawHeadOn() {
+    const { state, laws } = this;
+    const asked = [this.source.collide(collideText(state, laws), state.velocity, true), state.probe ? this.source.probe(probeText(state, laws)) : null];
+    const [collision, path, map] = await Promise.allSettled([...asked, this.map.redraw()]);
+    const failures = [];
+    if (collision.status === "fulfilled") this.drawCollision(collision.value);
+    else if (this.retryByEngine(collision.reason)) return null;
+    else failures.push(collision.reason.message);
+    if (path.status === "fulfilled" && path.value) this.drawPath(path.value);
+    else if (path.status === "rejected") {
+      if (this.retryInTime(path.reason)) return null;
+      failures.push(path.reason.message);
+    }
+    if (map.status === "rejected") failures.push(map.reason.message);
+    return failures;
+  }
+
   /** The collisions of the curve, once the hands have let it happen. */
   async complete(began) {
     try {
+      if (this.state.oblique.on) {
+        await this.redrawOblique(false);
+        this.completed(began);
+        return;
+      }
       const answer = await this.source.collide(collideText(this.state, this.laws), this.state.velocity, false);
       if (this.pending.dirty) return;
       this.drawCollision(answer);
-      if (began !== null) this.all = performance.now() - began;
-      this.root.dataset.all = this.all?.toFixed(1);
-      this.drawResults();
+      this.completed(began);
     } catch {
       // The quick answer has told why.
     }
+  }
+
+  completed(began) {
+    if (began !== null) this.all = performance.now() - began;
+    this.root.dataset.all = this.all?.toFixed(1);
+    this.drawResults();
   }
 
   /** Laws that relax with time are followed in steps. */
@@ -294,6 +356,7 @@ export class Laboratory {
   }
 
   async rest() {
+    if (this.state.oblique.on) return;
     await this.searchSticking();
     await this.map.refine();
   }
@@ -315,18 +378,26 @@ export class Laboratory {
   }
 
   drawResults() {
+    const head = (number) => (this.state.compare ? [element("div", { class: `swatch-${LETTERS[number]} letter` }, element("dt", {}, "contact"), element("dd", {}, LETTERS[number]))] : []);
+    const rows = this.state.oblique.on
+      ? (this.slanted?.contacts ?? []).map((contact, number) => element("dl", {}, ...head(number), ...this.oblique.results(contact)))
+      : this.headOnResults(head);
+    const took = this.took ? element("span", { class: "took" }, `redrawn in ${this.took.toFixed(0)} ms${this.all ? `, all collisions in ${this.all.toFixed(0)} ms` : ""}`) : "";
+    this.results.replaceChildren(...rows, took);
+  }
+
+  headOnResults(head) {
     const cell = (label, value, title) => element("div", { title }, element("dt", {}, label), element("dd", {}, value));
-    const rows = (this.collision?.contacts ?? []).map((contact, number) => {
+    return (this.collision?.contacts ?? []).map((contact, number) => {
       const { course } = contact;
       if (!course || course.failure) return element("dl", {}, cell("collision", course?.failure ?? "–"));
       const ranges = this.sticking?.[number];
       const sticks = ranges?.ranges.map(([low, high]) => `${low === null ? "0" : quantity(low, "m/s", 3)} to ${high === null ? "∞" : quantity(high, "m/s", 3)}`).join(", ");
       const theory = course.theory === null ? "" : ` (closed form ${number_(course.theory)})`;
-      const head = this.state.compare ? [element("div", { class: `swatch-${LETTERS[number]} letter` }, element("dt", {}, "contact"), element("dd", {}, LETTERS[number]))] : [];
       return element(
         "dl",
         {},
-        ...head,
+        ...head(number),
         cell("restitution", `${number_(course.restitution)}${theory}`),
         cell("outcome", course.regime === "stick" ? "sticks" : "rebounds"),
         cell("largest overlap", quantity(course.overlap_max, "m")),
@@ -336,8 +407,6 @@ export class Laboratory {
         ...(contact.failure ? [cell("note", contact.failure)] : []),
       );
     });
-    const took = this.took ? element("span", { class: "took" }, `redrawn in ${this.took.toFixed(0)} ms${this.all ? `, all collisions in ${this.all.toFixed(0)} ms` : ""}`) : "";
-    this.results.replaceChildren(...rows, took);
   }
 
   complain(error) {

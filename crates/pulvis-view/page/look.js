@@ -4,6 +4,7 @@ import { button, choice, tick } from "./controls.js";
 import { VIEWS } from "./camera.js";
 import { MAP_NAMES, paint } from "./colour.js";
 import { element, number, unitText } from "./format.js";
+import { savePicture } from "./picture.js";
 
 /** Words for the columns that every frame has. */
 export const NAMES = { v: "speed", omega: "angular velocity", f: "total force", torque: "total torque", type: "material", id: "number" };
@@ -74,7 +75,8 @@ export class LookPanel {
       element("div", { class: "buttons" },
         ...Object.keys(VIEWS).map((name) => button(name === "i" ? "askew" : `along ${name}`, () => this.view.turnTo(name))),
         button("whole", () => this.view.whole()),
-        button("picture.png", () => this.view.picture(), { title: "Download the picture with its legend" })),
+        button("picture.png", () => savePicture(this.view), { title: "Download the picture with its legend" })),
+      this.view.video.build(),
       element("p", { class: "keys" }, ...KEYS.flatMap(([keys, what]) => [element("kbd", {}, keys), ` ${what}  `])),
     );
   }

@@ -2,7 +2,7 @@
 
 import { button, choice, Quantity, tick } from "./controls.js";
 import { download, element } from "./format.js";
-import { collideText, courseText, MOTIONS, probeText, quantities, ROLES } from "./scenario.js";
+import { collideText, courseText, MOTIONS, obliqueCourseText, obliqueText, probeText, quantities, ROLES } from "./scenario.js";
 
 export const LETTERS = ["A", "B"];
 
@@ -40,13 +40,13 @@ export class Panel {
       ...this.contact(this.edited),
       this.bodies(),
       this.motionControls(),
-      this.mapControls(),
+      ...(state.oblique.on ? [] : [this.mapControls()]),
       element(
         "div",
         { class: "buttons" },
         element("h3", {}, "Scenario files"),
-        button("collide.toml", () => download("collide.toml", collideText(state, this.lab.laws)), { title: "Download the scenario of the restitution curve for `pulvis collide`" }),
-        button("one-collision.toml", () => download("one-collision.toml", courseText(state, this.lab.laws)), { title: "Download the scenario of the collision that is drawn for `pulvis collide`" }),
+        button("collide.toml", () => download("collide.toml", (state.oblique.on ? obliqueText : collideText)(state, this.lab.laws)), { title: "Download the scenario of the restitution curve for `pulvis collide`" }),
+        button("one-collision.toml", () => download("one-collision.toml", (state.oblique.on ? obliqueCourseText : courseText)(state, this.lab.laws)), { title: "Download the scenario of the collision that is drawn for `pulvis collide`" }),
         button("probe.toml", () => download("probe.toml", probeText(state, this.lab.laws)), { title: "Download the scenario of the path for `pulvis probe`", disabled: !state.probe }),
         button("map.toml", () => download("map.toml", this.lab.map.file()), { title: "Download the scenario of the sticking map for `pulvis collide`", disabled: !this.lab.map.axis() }),
         button("open a file …", () => file.click(), { title: "Open a scenario for `pulvis collide` or `pulvis probe`" }),
@@ -144,6 +144,7 @@ export class Panel {
       choice("Bodies", kinds, state.bodies, (kind) => {
         state.bodies = kind;
         if (kind === "pair" && state.radius.length < 2) [state.radius, state.density] = [[state.radius[0], state.radius[0]], [state.density[0], state.density[0]]];
+        if (state.oblique.on) this.build();
         this.lab.changed();
       }),
       one("radius", "m", state.radius, "radius of the bodies"),
@@ -151,6 +152,20 @@ export class Panel {
       ...own,
       ...warm,
     );
+  }
+
+  obliqueControls() {
+    const { oblique, bodies } = this.lab.state;
+    this.angle = new Quantity({ name: "angle", unit: "°", meaning: "angle between the velocity and the line of centres", range: { low: 0, high: 89, closed: true }, change: (value) => {
+      oblique.angle = Math.min(Math.max(value, 0), 89);
+      this.lab.changed();
+    } }, oblique.angle);
+    const spin = (place, name) =>
+      new Quantity({ name, unit: "rad/s", meaning: `angular velocity of body ${name.at(-1)} before, about the axis across the plane of motion`, range: { low: null, high: null }, change: (value) => {
+        oblique.spins[place] = value;
+        this.lab.changed();
+      } }, oblique.spins[place]).root;
+    return [this.angle.root, spin(0, "spin i"), ...(bodies === "pair" ? [spin(1, "spin j")] : [])];
   }
 
   /** Which parameter the sticking map varies, and how far. */
@@ -199,7 +214,13 @@ export class Panel {
       state.velocity = value;
       this.lab.changed();
     } }, state.velocity);
-    const section = element("section", { class: "law" }, element("h3", {}, "Motion"), this.velocity.root);
+    const impacts = [["head-on", "head on"], ["oblique", "under an angle"]];
+    const impact = choice("Impact", impacts, state.oblique.on ? "oblique" : "head-on", (name) => this.lab.setOblique(name === "oblique"));
+    const section = element("section", { class: "law" }, element("h3", {}, "Motion"), impact, this.velocity.root);
+    if (state.oblique.on) {
+      section.append(...this.obliqueControls());
+      return section;
+    }
     section.append(button("range of velocities around this one", () => {
       state.speeds = [state.velocity / 50, state.velocity * 20];
       this.lab.changed();

@@ -3,9 +3,10 @@
 import { button } from "./controls.js";
 import { Camera, VIEWS } from "./camera.js";
 import { Chart } from "./chart.js";
-import { download, element, number, quantity, unitText } from "./format.js";
+import { element, number, quantity, unitText } from "./format.js";
 import { LookPanel, NAMES } from "./look.js";
 import { Scene } from "./spheres.js";
+import { Video } from "./video.js";
 
 /** How often a run is asked whether it has grown [ms]. */
 const PATIENCE = 1500;
@@ -45,6 +46,7 @@ export class RunView {
   build() {
     this.canvas = element("canvas", { tabindex: 0, "aria-label": "particles; drag to turn, shift and drag to move, wheel to zoom, click for values", role: "application" });
     this.corner = element("div", { class: "corner" });
+    this.video = new Video(this);
     this.panel = new LookPanel(this);
     this.bar = this.panel.bar;
     this.picked = element("div", { class: "picked", hidden: true, role: "status" });
@@ -98,7 +100,7 @@ export class RunView {
 
   async go(index) {
     this.wanted = index;
-    if (this.loading) return;
+    if (this.loading || this.video.recording) return;
     this.loading = true;
     try {
       while (this.wanted !== null) {
@@ -112,6 +114,12 @@ export class RunView {
     } finally {
       this.loading = false;
     }
+  }
+
+  /** A frame for a film, after those that are on their way. */
+  async frameOf(number) {
+    while (this.loading) await new Promise((resolve) => setTimeout(resolve, 10));
+    await this.load(number);
   }
 
   async load(number) {
@@ -164,6 +172,10 @@ export class RunView {
     });
     this.follow = false;
     this.go(best);
+  }
+
+  pause() {
+    if (this.playing.getAttribute("aria-pressed") === "true") this.play();
   }
 
   play() {
@@ -343,7 +355,8 @@ export class RunView {
   }
 
   render(moved) {
-    if (!this.frame || !this.range || this.due) return;
+    // A film draws for itself.
+    if (!this.frame || !this.range || this.due || this.video.recording) return;
     this.due = requestAnimationFrame((now) => {
       this.due = null;
       this.pace(now, moved);
@@ -387,6 +400,7 @@ export class RunView {
   // Picking
 
   pick(x, y) {
+    if (this.video.recording) return;
     this.canvas.focus({ preventScroll: true });
     const row = this.scene.pick(this.appearance(), x, y);
     if (row < 0 || row >= this.frame.particles) this.unpick();
@@ -430,6 +444,10 @@ export class RunView {
   // Keys, pictures, complaints
 
   key(event) {
+    if (event.key === "Escape" && this.video.recording) {
+      this.video.stop();
+      return;
+    }
     if (event.target.matches("select, input, button") && !(event.target === this.slider && event.key === " ")) return;
     const step = (by) => {
       this.follow = false;
@@ -459,29 +477,6 @@ export class RunView {
   closer(times) {
     this.camera.zoom(times);
     this.render(true);
-  }
-
-  picture() {
-    this.scene.draw(this.appearance());
-    const { canvas } = this;
-    const whole = element("canvas", {});
-    [whole.width, whole.height] = [canvas.width, canvas.height];
-    const context = whole.getContext("2d");
-    context.drawImage(canvas, 0, 0);
-    const dense = canvas.width / canvas.clientWidth;
-    context.scale(dense, dense);
-    const width = canvas.clientWidth;
-    context.drawImage(this.bar.querySelector("canvas"), width - 235, 34, 220, 12);
-    context.fillStyle = getComputedStyle(this.root).color;
-    context.font = "13px system-ui, sans-serif";
-    context.fillText(this.bar.querySelector("span").textContent, width - 235, 26);
-    const ends = [...this.bar.querySelectorAll(".ends span")].map((span) => span.textContent);
-    context.fillText(ends[0], width - 235, 62);
-    context.textAlign = "right";
-    context.fillText(ends[2], width - 15, 62);
-    context.textAlign = "left";
-    context.fillText(`${this.run.title ?? ""}  t = ${quantity(this.frame.time, "s", 5)}`, 16, 26);
-    whole.toBlob((blob) => download(`frame_${String(this.look.number).padStart(4, "0")}.png`, blob), "image/png");
   }
 
   complain(error) {

@@ -9,6 +9,10 @@ const CHOICES = ["conventions", "expected"];
 /** Points of a restitution curve. */
 const SPEEDS = 32;
 
+/** Angles of incidence, from nearly head on to nearly grazing [°], and how many: two degrees apart. */
+const ANGLES = [1, 89];
+const ANGLE_POINTS = 45;
+
 /** Motions of a path by their place in a pose, with the role that resists them. */
 export const MOTIONS = [
   { key: "overlap", role: "normal", place: 0 },
@@ -105,6 +109,28 @@ export function courseText(state, laws) {
   if (state.method === "engine") lines.push(`method = "engine"`);
   lines.push(`velocity = ${toml(state.velocity, "m/s")}`, "");
   return [...lines, ...contacts(state, laws)].join("\n").trimStart();
+}
+
+/** Collision, velocity, angle and spins of an oblique impact. */
+function oblique(state, laws) {
+  const { angle, spins } = state.oblique;
+  const lines = head({ ...state, laws }, "collision");
+  lines.push(`velocity = ${toml(state.velocity, "m/s")}`, `angle = "${angle} deg"`);
+  const keys = state.bodies === "wall" ? ["spin_i"] : ["spin_i", "spin_j"];
+  keys.forEach((key, place) => spins[place] !== 0 && lines.push(`${key} = ${toml(spins[place], "rad/s")}`));
+  return lines;
+}
+
+/** The file for `pulvis collide`: collisions over the angle of incidence. */
+export function obliqueText(state, laws) {
+  const [from, to] = ANGLES;
+  const sweep = ["", "[collision.sweep]", `variable = "collision.angle"`, `from = "${from} deg"`, `to = "${to} deg"`, `points = ${ANGLE_POINTS}`, ""];
+  return [...oblique(state, laws), ...sweep, ...contacts(state, laws)].join("\n").trimStart();
+}
+
+/** The file for `pulvis collide` with the one oblique collision whose forces are drawn. */
+export function obliqueCourseText(state, laws) {
+  return [...oblique(state, laws), "", ...contacts(state, laws)].join("\n").trimStart();
 }
 
 /** The file for `pulvis collide` with the collisions of a row of the map, of one contact; with `values`, of all its rows. */

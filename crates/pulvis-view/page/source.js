@@ -40,6 +40,7 @@ export class Server {
   start = (role, law) => json(`api/start?role=${encodeURIComponent(role)}&law=${encodeURIComponent(law)}`);
   read = (text) => send("api/state", text);
   collide = (text, velocity, quick) => send(`api/collide?velocity=${velocity}${quick ? "&quick=1" : ""}`, text);
+  oblique = (text, degrees, quick) => send(`api/oblique?angle=${(degrees * Math.PI) / 180}${quick ? "&quick=1" : ""}`, text);
   sticking = (text) => send("api/sticking", text);
   map = (text, { parameter, values, stride = 1, row_stride = 1, known = 0 }) => send(`api/map?parameter=${encodeURIComponent(parameter)}&values=${values.join(",")}&stride=${stride}&row_stride=${row_stride}&known=${known}`, text);
   probe = (text) => send("api/probe", text);

@@ -265,11 +265,11 @@ export class Scene {
     for (const [key, value] of [[gl.TEXTURE_MIN_FILTER, gl.NEAREST], [gl.TEXTURE_MAG_FILTER, gl.NEAREST], [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE]]) gl.texParameteri(gl.TEXTURE_2D, key, value);
   }
 
-  /** `look`: `camera`, `quality` (pixels to the pixel), `range`, `scale`, `clip` (normal and offset), `chosen`, `contacts` (width), `walls` (whether their surfaces are shown), `ink`, `ground`. */
+  /** `look`: `camera`, `quality` (pixels to the pixel), `size` (in pixels, in place of what is shown), `range`, `scale`, `clip` (normal and offset), `chosen`, `contacts` (width), `walls` (whether their surfaces are shown), `ink`, `ground`. */
   draw(look) {
     const { gl, canvas } = this;
     const dense = Math.min(window.devicePixelRatio || 1, 2) * look.quality;
-    const [width, height] = [Math.max(1, Math.round(canvas.clientWidth * dense)), Math.max(1, Math.round(canvas.clientHeight * dense))];
+    const [width, height] = look.size ?? [Math.max(1, Math.round(canvas.clientWidth * dense)), Math.max(1, Math.round(canvas.clientHeight * dense))];
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, width, height);

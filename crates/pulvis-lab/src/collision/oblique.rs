@@ -13,6 +13,8 @@ use pulvis_math::{Vector3, elementary};
 pub struct ObliqueOutcome {
     /// Tangential velocity of i against j after over before; `None` where there is none before [1].
     pub restitution_tangential: Option<f64>,
+    /// Velocity of the contact point along y before and after [m/s].
+    pub contact_velocities: [f64; 2],
     /// −1 times the tangential velocity of the contact point after over before, β; −1: no friction, 0: the bodies roll
     /// off each other, 1: reversed; `None` where there is none before [1].
     pub restitution_contact: Option<f64>,
@@ -151,6 +153,7 @@ pub(super) fn outcome(
     let moves = before.velocity.y != 0.0;
     ObliqueOutcome {
         restitution_tangential: moves.then(|| after.velocity.y / before.velocity.y),
+        contact_velocities: contact.map(|velocity| velocity.y),
         restitution_contact: (square > 0.0).then(|| 0.0 - contact[1].dot(contact[0]) / square),
         rebound_angle: elementary::atan2(after.velocity.y, after.velocity.x),
         rebound_angle_contact: elementary::atan2(contact[1].y, after.velocity.x),

@@ -18,7 +18,7 @@ const BETWEEN: usize = 8;
 const PATIENCE: Duration = Duration::from_millis(1500);
 
 /// Steps after which the integration of one collision is given up: strongly damped pairs creep.
-const MOST_STEPS: u64 = 200_000;
+pub(super) const MOST_STEPS: u64 = 200_000;
 
 /// How long a pair that stuck is drawn, in sampling intervals: four shortest contact times.
 const AFTER_STICKING: f64 = 240.0;
@@ -29,7 +29,7 @@ pub(super) fn answer(text: &str, velocity: Option<f64>, quick: bool) -> super::O
     let began = Instant::now();
     let scenario = CollisionScenario::from_document(&document(text)?).map_err(words)?;
     if scenario.cases.iter().any(|case| case.incidence.is_some()) {
-        return Err("the laboratory shows head-on collisions; this file has an angle or spins".to_owned());
+        return Err("this file has an angle or spins; expected head-on collisions".to_owned());
     }
     let contact = |number: usize| {
         let cases: Vec<_> = scenario.cases.iter().filter(|case| case.contact_number == number).collect();
@@ -82,7 +82,7 @@ fn curves(cases: &[&CollisionCase], began: Instant, quick: bool) -> Value {
 }
 
 /// The outcome of each collision, or why there is none.
-fn computed(
+pub(super) fn computed(
     cases: &[&CollisionCase],
     observation: &Observation,
     began: Instant,

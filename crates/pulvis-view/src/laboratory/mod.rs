@@ -4,6 +4,7 @@
 mod catalogue;
 mod collide;
 mod map;
+mod oblique;
 mod parallel;
 mod presets;
 mod probe;
@@ -35,6 +36,10 @@ pub(crate) fn answer(name: &str, question: &Question) -> Option<Answer> {
             let quick = question.parameter("quick").is_some();
             collide::answer(&question.body, number(question, "velocity"), quick)
         }
+        ("oblique", false) => {
+            let quick = question.parameter("quick").is_some();
+            oblique::answer(&question.body, angle(question), quick)
+        }
         ("map", false) => map::answer(question),
         ("sticking", false) => sticking::answer(&question.body),
         ("probe", false) => probe::answer(&question.body),
@@ -48,6 +53,12 @@ pub(crate) fn answer(name: &str, question: &Question) -> Option<Answer> {
 
 fn number(question: &Question, name: &str) -> Option<f64> {
     question.parameter(name)?.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite())
+}
+
+/// An angle of incidence [rad].
+fn angle(question: &Question) -> Option<f64> {
+    let range = 0.0..std::f64::consts::FRAC_PI_2;
+    question.parameter("angle")?.parse().ok().filter(|angle| range.contains(angle))
 }
 
 /// The text as a document.

@@ -28,6 +28,7 @@ const PRESETS: &[Preset] = presets![
     ("S1 Fig. 11: weak plasticity with dashpot", "figures/s1-11/weak.toml"),
     ("S1 Fig. 15: energies of a collision", "figures/s1-15/energies.toml"),
     ("S0 Fig. 5: elastic and plastic spheres that attract", "figures/s0-05/attraction.toml"),
+    ("Chung and Ooi, test 4: aluminium alloy, angle of incidence", "chung-ooi/test-4-aluminium-alloy.toml"),
     ("Chung and Ooi, test 2: aluminium alloy on a plane", "chung-ooi/test-2-aluminium-alloy.toml"),
 ];
 

@@ -62,17 +62,31 @@ fn probe(document: &Document) -> Outcome {
 fn collision(document: &Document) -> Outcome {
     let scenario = CollisionScenario::from_document(document).map_err(words)?;
     let first = scenario.cases.first().ok_or_else(|| format!("{NAME} holds no collision"))?;
-    if first.incidence.is_some() {
-        return Err("the laboratory shows head-on collisions; this file has an angle or spins".to_owned());
-    }
+    let oblique = first.incidence.map(|_| oblique(&scenario)).transpose()?;
     let speeds = scenario.cases.iter().map(|case| case.velocity).filter(|speed| *speed > 0.0);
     let [low, high] =
         speeds.fold([f64::INFINITY, 0.0_f64], |[low, high], speed| [low.min(speed), high.max(speed)]);
     let mut state = surrounded(&first.bodies, &first.surroundings);
     state["title"] = json!(scenario.title);
+    state["oblique"] = json!(oblique);
     state["speeds"] = json!([low, high]);
     state["typical_speed"] = json!(typical_speed(first.bodies, &first.contact, &first.surroundings));
     Ok(state)
+}
+
+/// Speed, angle \[°\] and spins of the collision in the middle of a sweep.
+fn oblique(scenario: &CollisionScenario) -> Outcome {
+    let case = scenario.cases.get(scenario.cases.len() / 2);
+    let (velocity, incidence) = case.map(|case| (case.velocity, case.incidence)).unwrap_or_default();
+    let incidence = incidence.unwrap_or_default();
+    if incidence.spins.iter().any(|[x, y, _]| *x != 0.0 || *y != 0.0) {
+        return Err(
+            "the laboratory shows motion in a plane; this file has spins about axes within it".to_owned()
+        );
+    }
+    // The value that the author wrote, not its neighbour.
+    let degrees = (incidence.angle.to_degrees() * 1e9).round() / 1e9;
+    Ok(json!({ "velocity": velocity, "angle": degrees, "spins": incidence.spins.map(|[_, _, z]| z) }))
 }
 
 /// The bodies, and what laws read beside them.
