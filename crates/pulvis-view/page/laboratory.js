@@ -1,11 +1,11 @@
 // The laboratory: sliders on one side, what the contact does on the other. All numbers come from `source`, which computes them
 // as `pulvis collide` and `pulvis probe` do.
 
-import { Chart } from "./chart.js";
-import { element, number, packed, quantity } from "./format.js";
+import { element, packed } from "./format.js";
+import { HeadOnCharts } from "./headon.js";
 import { StickingMap } from "./map.js";
 import { ObliqueCharts } from "./oblique.js";
-import { LETTERS, MOTION_LABELS, Panel } from "./panel.js";
+import { LETTERS, Panel } from "./panel.js";
 import { collideText, MOTIONS, obliqueText, pathOf, probeText } from "./scenario.js";
 
 /** An impact under an angle, as the laboratory begins with it. */
@@ -20,16 +20,7 @@ export class Laboratory {
     this.panel = new Panel(this);
     this.results = element("div", { class: "results", role: "status" });
     this.message = element("div", { class: "message", role: "alert", hidden: true });
-    const restitution = new Chart({
-      title: "Coefficient of restitution",
-      x: { label: "impact velocity v", unit: "m/s", log: true },
-      y: { label: "restitution e", unit: "1", range: [-0.03, 1.05] },
-      pick: (velocity) => this.pickVelocity(velocity),
-    });
-    const loop = new Chart({ title: "Force over overlap of the collision", x: { label: "overlap δ", unit: "m" }, y: { label: "force f", unit: "N", include: [0] } });
-    const energies = new Chart({ title: "Energies of the collision", x: { label: "time t", unit: "s", tight: true }, y: { label: "energy", unit: "J", include: [0] } });
-    const path = new Chart({ title: "Force over overlap on a path", x: { label: "overlap δ", unit: "m" }, y: { label: "force f", unit: "N", include: [0] } });
-    this.charts = { loop, restitution, energies, path };
+    this.headOn = new HeadOnCharts(this);
     this.map = new StickingMap(this);
     this.oblique = new ObliqueCharts(this);
     this.stage = element("div", { class: "charts" });
@@ -53,7 +44,7 @@ export class Laboratory {
 
   /** The charts of head-on collisions, or of those under an angle. */
   arrange() {
-    const headOn = [...Object.values(this.charts), this.map.chart];
+    const headOn = [...this.headOn.all, this.map.chart];
     const shown = this.state.oblique.on ? this.oblique.charts : headOn;
     this.stage.replaceChildren(...shown.map((chart) => chart.root));
   }
@@ -227,10 +218,10 @@ export class Laboratory {
     const asked = [this.source.collide(collideText(state, laws), state.velocity, true), state.probe ? this.source.probe(probeText(state, laws)) : null];
     const [collision, path, map] = await Promise.allSettled([...asked, this.map.redraw()]);
     const failures = [];
-    if (collision.status === "fulfilled") this.drawCollision(collision.value);
+    if (collision.status === "fulfilled") this.headOn.draw(collision.value);
     else if (this.retryByEngine(collision.reason)) return null;
     else failures.push(collision.reason.message);
-    if (path.status === "fulfilled" && path.value) this.drawPath(path.value);
+    if (path.status === "fulfilled" && path.value) this.headOn.drawPath(path.value);
     else if (path.status === "rejected") {
       if (this.retryInTime(path.reason)) return null;
       failures.push(path.reason.message);
@@ -249,7 +240,7 @@ export class Laboratory {
       }
       const answer = await this.source.collide(collideText(this.state, this.laws), this.state.velocity, false);
       if (this.pending.dirty) return;
-      this.drawCollision(answer);
+      this.headOn.draw(answer);
       this.completed(began);
     } catch {
       // The quick answer has told why.
@@ -274,7 +265,7 @@ export class Laboratory {
   retryInTime(error) {
     const { probe } = this.state;
     if (probe.durations || !error.message.includes("depend on the rate or on time")) return false;
-    const duration = this.collision?.contacts[0].course?.contact_duration;
+    const duration = this.headOn.collision?.contacts[0].course?.contact_duration;
     const time = Number((duration > 0 ? duration / 2 : 1e-4).toPrecision(3));
     probe.durations = probe.poses.slice(1).map(() => time);
     this.panel.build();
@@ -295,66 +286,6 @@ export class Laboratory {
     return this.state.compare ? `${LETTERS[number]} ${text}`.trim() : text;
   }
 
-  drawCollision(answer) {
-    this.collision = answer;
-    const contacts = answer.contacts.map((contact, number) => ({ ...contact, colour: this.colours(number), number }));
-    const courses = contacts.filter((contact) => contact.course && !contact.course.failure);
-    const first = courses[0]?.course;
-    if (!this.state.probe && first) {
-      const poses = pathOf("overlap", first.overlap_max, 0, 0.4 * first.overlap_max);
-      this.state.probe = { poses, durations: null, points: 150 };
-      this.panel.build();
-      this.pending.dirty = true;
-    }
-    const restitution = contacts.flatMap(({ velocity, restitution, theory, colour, number }) => [
-      ...(theory.velocity.length ? [{ name: this.name(number, "closed form"), x: theory.velocity, y: theory.restitution, colour }] : []),
-      { name: this.name(number, "collisions"), x: velocity, y: restitution, colour: theory.velocity.length ? this.colour("--ink") : colour, points: true },
-    ]);
-    const line = ({ velocity, restitution, colour }) => ({ x: velocity, y: restitution, colour, dashed: false });
-    const bare = contacts.filter((contact) => !contact.theory.velocity.length).map(line);
-    const limits = contacts.flatMap(({ limits, colour, number }) => limits.map((limit) => ({ ...limit, x: limit.velocity, symbol: this.name(number, limit.symbol), colour })));
-    this.restitution = { series: [...bare, ...restitution], markers: [{ x: this.state.velocity }], limits };
-    this.charts.restitution.show({ ...this.restitution, bands: this.bands });
-    this.charts.loop.show({
-      title: `Force over overlap at ${quantity(this.state.velocity, "m/s")}`,
-      series: courses.map(({ course, colour, number }) => ({ name: this.name(number, this.state.contacts[number].laws.normal.law), x: course.overlap, y: course.force, colour })),
-    });
-    this.drawEnergies(courses);
-  }
-
-  drawEnergies(courses) {
-    const kinds = [["kinetic", "--energy-kinetic"], ["available", "--energy-elastic"], ["dissipated", "--energy-lost"], ["attraction", "--energy-attraction"]];
-    const names = { kinetic: "kinetic", available: "elastic (available)", dissipated: "dissipated", attraction: "attraction" };
-    const series = courses.flatMap(({ course, number }) =>
-      kinds
-        .filter(([kind]) => kind !== "attraction" || course.attraction.some((value) => value !== 0))
-        .map(([kind, colour]) => ({ name: this.name(number, names[kind]), x: course.time, y: course[kind], colour: this.colour(colour), dashed: number > 0 })));
-    this.charts.energies.show({ title: `Energies at ${quantity(this.state.velocity, "m/s")}`, series });
-  }
-
-  drawPath(answer) {
-    const motion = this.state.motion;
-    const axes = {
-      overlap: ["overlap", "force", "overlap δ", "force f", "N"],
-      shear: ["shear", "shear_force", "displacement along the surface", "force against it", "N"],
-      roll: ["roll", "roll_torque", "rolling arc", "torque against rolling", "N m"],
-      twist: ["twist", "twist_torque", "twisting arc", "torque against twisting", "N m"],
-    };
-    const [x, y, xLabel, yLabel, unit] = axes[motion];
-    this.charts.path.show({
-      title: motion === "overlap" ? "Force over overlap on a path" : `Path: ${MOTION_LABELS[motion]}`,
-      x: { label: xLabel, unit: "m" },
-      y: { label: yLabel, unit, include: [0] },
-      series: answer.curves.map((curve, number) => ({
-        name: this.name(number, motion === "overlap" ? this.state.contacts[number].laws.normal.law : (this.state.contacts[number].laws[MOTIONS.find((one) => one.key === motion).role]?.law ?? "none")),
-        x: curve[x],
-        y: curve[y],
-        colour: this.colours(number),
-        notes: motion === "overlap" ? curve.branch : undefined,
-      })),
-    });
-  }
-
   async rest() {
     if (this.state.oblique.on) return;
     await this.searchSticking();
@@ -366,47 +297,21 @@ export class Laboratory {
     try {
       const answer = await this.source.sticking(collideText(this.state, this.laws));
       if (asked !== JSON.stringify(this.state)) return;
-      this.sticking = answer.contacts;
-      this.bands = answer.contacts.flatMap((contact, number) =>
-        contact.ranges.map(([low, high]) => ({ low, high, colour: this.colours(number), label: this.name(number, "sticks"), row: number })));
+      this.headOn.mark(answer.contacts);
     } catch {
-      this.bands = [];
-      this.sticking = null;
+      this.headOn.mark(null);
     }
-    if (this.restitution) this.charts.restitution.show({ ...this.restitution, bands: this.bands });
     this.drawResults();
   }
 
   drawResults() {
     const head = (number) => (this.state.compare ? [element("div", { class: `swatch-${LETTERS[number]} letter` }, element("dt", {}, "contact"), element("dd", {}, LETTERS[number]))] : []);
-    const rows = this.state.oblique.on
-      ? (this.slanted?.contacts ?? []).map((contact, number) => element("dl", {}, ...head(number), ...this.oblique.results(contact)))
-      : this.headOnResults(head);
+    const { on } = this.state.oblique;
+    const answer = on ? this.slanted : this.headOn.collision;
+    const numbers = (contact, number) => (on ? this.oblique.results(contact) : this.headOn.results(contact, number));
+    const rows = (answer?.contacts ?? []).map((contact, number) => element("dl", {}, ...head(number), ...numbers(contact, number)));
     const took = this.took ? element("span", { class: "took" }, `redrawn in ${this.took.toFixed(0)} ms${this.all ? `, all collisions in ${this.all.toFixed(0)} ms` : ""}`) : "";
     this.results.replaceChildren(...rows, took);
-  }
-
-  headOnResults(head) {
-    const cell = (label, value, title) => element("div", { title }, element("dt", {}, label), element("dd", {}, value));
-    return (this.collision?.contacts ?? []).map((contact, number) => {
-      const { course } = contact;
-      if (!course || course.failure) return element("dl", {}, cell("collision", course?.failure ?? "–"));
-      const ranges = this.sticking?.[number];
-      const sticks = ranges?.ranges.map(([low, high]) => `${low === null ? "0" : quantity(low, "m/s", 3)} to ${high === null ? "∞" : quantity(high, "m/s", 3)}`).join(", ");
-      const theory = course.theory === null ? "" : ` (closed form ${number_(course.theory)})`;
-      return element(
-        "dl",
-        {},
-        ...head(number),
-        cell("restitution", `${number_(course.restitution)}${theory}`),
-        cell("outcome", course.regime === "stick" ? "sticks" : "rebounds"),
-        cell("largest overlap", quantity(course.overlap_max, "m")),
-        cell("duration", course.contact_duration === null ? "does not open" : quantity(course.contact_duration, "s")),
-        cell("dissipated", quantity(course.energy_dissipated, "J")),
-        cell("sticks between", !ranges || ranges.from === "none" ? "–" : sticks || "never", ranges ? `from: ${ranges.from}` : undefined),
-        ...(contact.failure ? [cell("note", contact.failure)] : []),
-      );
-    });
   }
 
   complain(error) {
@@ -419,8 +324,4 @@ export class Laboratory {
     if (!this.state) return;
     this.changed();
   }
-}
-
-function number_(value) {
-  return number(value, 5);
 }

@@ -14,7 +14,7 @@ export class ObliqueCharts {
     const angle = { label: "angle of incidence θ", unit: "°", range: [0, 90], tight: true, ticks: [0, 15, 30, 45, 60, 75, 90] };
     const pick = (value) => this.lab.pickAngle(value);
     this.restitution = new Chart({ title: "Restitution over angle", x: angle, y: { label: "after over before", unit: "1", range: [-1.05, 1.05] }, pick });
-    this.maw = new Chart({ title: "Contact point, after over before", x: { label: "before: tangential over normal velocity v_t/v_n", unit: "1" }, y: { label: "after: v_t′/v_n", unit: "1", include: [0] } });
+    this.maw = new Chart({ title: "Contact point, after over before", x: { label: "before: v_t/v_n", unit: "1" }, y: { label: "after: v_t′/v_n", unit: "1", include: [0] } });
     this.impulse = new Chart({ title: "Impulse ratio over angle", x: angle, y: { label: "impulse ratio P_t/P_n", unit: "1", include: [0] }, pick });
     this.forces = new Chart({ title: "Forces of the collision", x: { label: "time t", unit: "s", tight: true }, y: { label: "force", unit: "N", include: [0] } });
     this.charts = [this.restitution, this.maw, this.impulse, this.forces];

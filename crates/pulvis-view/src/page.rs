@@ -33,6 +33,7 @@ pub(crate) const MODULES: &[File] = files![
     "scenario.js",
     "controls.js",
     "panel.js",
+    "headon.js",
     "map.js",
     "laboratory.js",
     "picture.js",
