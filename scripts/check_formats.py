@@ -3,8 +3,8 @@
 
     python3 scripts/check_formats.py <run folder>/formats
 
-NumPy reads the npz archives, pandas the CSV tables, VTK the frames and an image, OVITO dumps and extended XYZ. What is not installed is
-skipped aloud.
+NumPy reads the npz archives, pandas the CSV tables, VTK the frames and an image, OVITO dumps and extended XYZ, h5py the HDF5 files where
+the example was built with them. What is not installed is skipped aloud.
 
 Exit status: 0 all well, 1 trouble, 2 wrong use.
 """
@@ -64,6 +64,57 @@ def check_npz(folder, end):
             require(data["contact_id2"].tolist() == [1, -1], f"{file}: other contacts")
             require(data["contact_force"].shape == (2, 3), f"{file}: shape of the forces")
     print(f"numpy {numpy.__version__} reads npz ({end})")
+
+
+def check_hdf5(folder, end):
+    import numpy
+
+    if not os.path.exists(os.path.join(folder, f"hdf5_{end}.h5")):
+        raise ImportError("the example was built without the feature `hdf5`")
+    import h5py
+
+    names = {"v": "velocity", "f": "force"}
+    # Of a rising xy, xz, yz: each row a vector of the box.
+    edges = [[[3.0, 0.0, 0.0], [0.5, 2.0, 0.0], [0.0, -0.25, 2.0]]]
+    kind = "float64" if end == "double" else "float32"
+    # The compressed files have 64 bits.
+    for series in [f"hdf5_{end}"] + (["hdf5_compressed"] if end == "double" else []):
+        with h5py.File(os.path.join(folder, f"{series}.h5")) as index:
+            require(list(index["frames"]) == ["0000", "0001", "0002"], f"{series}: frames {list(index['frames'])}")
+            require(index["step"][:].tolist() == list(STEPS), f"{series}: other steps")
+            require(index["time"][:].tolist() == [step / 700.0 for step in STEPS], f"{series}: other times")
+            require(index["particle_count"][:].tolist() == [COUNT] * 3, f"{series}: other numbers of particles")
+            require(index["contact_count"][:].tolist() == [2] * 3, f"{series}: other numbers of contacts")
+            for number, step in enumerate(STEPS):
+                frame, what = index[f"frames/{number:04d}"], f"{series}, frame {number}"
+                require(frame["h5md"].attrs["version"].tolist() == [1, 1], f"{what}: no H5MD")
+                particles, contacts = frame["particles/all"], frame["contacts"]
+                require(list(frame["parameters/materials"].attrs["names"]) == ["glass", "steel"], f"{what}: other materials")
+                box = particles["box"]
+                require(box.attrs["dimension"] == 3, f"{what}: dimension of the box")
+                require(list(box.attrs["boundary"]) == ["periodic", "none", "periodic"], f"{what}: other periodic directions")
+                require(box["edges/value"][:].tolist() == edges, f"{what}: the box is {box['edges/value'][:]}")
+                require(box["offset/value"][:].tolist() == [[0.0, -1.0, 0.0]], f"{what}: another corner")
+                for group in [frame, particles["position"], contacts["force"], box["edges"]]:
+                    require(group["step"][:].tolist() == [step] and group["time"][:].tolist() == [step / 700.0], f"{what}: another time")
+                    require(group["time"].attrs["unit"] == "s", f"{what}: unit of the time")
+                for name, (_, parts) in PARTS.items():
+                    value = particles[f"{names.get(name, name)}/value"]
+                    shape = {1: (), 3: (3,), 9: (3, 3)}[parts]
+                    require(value.shape == (1, COUNT) + shape, f"{what}: shape {value.shape} of {name}")
+                    require(value.dtype == kind, f"{what}: {name} is {value.dtype}")
+                    compare(numpy, value[0], name, step, end, what)
+                    filters = (value.compression, value.shuffle)
+                    require(filters == (("gzip", True) if series == "hdf5_compressed" else (None, False)), f"{what}: filters {filters}")
+                require(particles["species/value"][0].tolist() == [0, 1] * 3 + [0], f"{what}: other materials")
+                if series != "hdf5_compressed":
+                    units = [particles[f"{name}/value"].attrs["unit"] for name in ("position", "radius", "velocity", "stress")]
+                    require(units == ["m", "m", "m/s", "Pa"], f"{what}: units {units}")
+                    require(contacts["force/value"].attrs["unit"] == "N", f"{what}: unit of the force")
+                require(contacts["id2/value"][0].tolist() == [1, -1], f"{what}: other contacts")
+                forces = numpy.array([[0.1, 0.2, 0.3], [step / 700.0, 0.0, -1.0e-9]]).astype(kind)
+                require((contacts["force/value"][0] == forces).all(), f"{what}: other forces")
+    print(f"h5py {h5py.__version__} reads hdf5 ({end})")
 
 
 def check_csv(folder, end):
@@ -206,7 +257,7 @@ def main(arguments):
         print(__doc__)
         return 2
     try:
-        for check in (check_npz, check_csv, check_vtk, check_compressed, check_image, check_ovito):
+        for check in (check_npz, check_hdf5, check_csv, check_vtk, check_compressed, check_image, check_ovito):
             for end in ("double", "single"):
                 try:
                     check(arguments[0], end)

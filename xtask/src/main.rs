@@ -10,6 +10,7 @@ mod dependencies;
 mod expected;
 mod experiments;
 mod figures;
+mod hdf5;
 mod mpi;
 mod process;
 mod python;
@@ -34,6 +35,7 @@ usage: cargo xtask <task>
   python               the Python package: lints, wheel, and its tests in an environment of its own (minutes: it builds the engine)
   mpi [KILLS]          runs on processes of Open MPI and MPICH: the files of one process, also after 4 kills at random moments, or as
                        many as told (minutes: it builds the program with each)
+  hdf5                 the program with the feature `hdf5`, its files read by h5py (minutes: it builds what is around the engine once more)
   browser              the page of `pulvis view` in Chromium without a window, where Node.js and Chromium are (some minutes)
   ci                   everything that must hold before a change is merged
   experiments [FOLDER] runs the experiments that are short and compares them with their expected.toml
@@ -60,6 +62,7 @@ fn main() -> ExitCode {
         ["python"] => python::run_all(),
         ["mpi"] => mpi::run_all("4"),
         ["mpi", kills] => mpi::run_all(kills),
+        ["hdf5"] => hdf5::run_all(),
         ["browser"] => browser::run_all(),
         ["ci"] => ci::run_all(),
         ["experiments"] => experiments::run(None),

@@ -92,7 +92,7 @@ pub fn read_by_vtk(folder: &std::path::Path, options: &[&str]) -> Outcome {
 }
 
 /// A Python that has VTK, in a private environment below the target folder.
-fn python_with_vtk() -> Option<PathBuf> {
+pub fn python_with_vtk() -> Option<PathBuf> {
     let environment = target().join("xtask-python");
     let python = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     let has_vtk = || works(Command::new(&python).args(["-c", "import vtkmodules.vtkIOXML, numpy, pandas"]));

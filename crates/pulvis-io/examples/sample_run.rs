@@ -5,7 +5,7 @@
 #![allow(clippy::print_stderr)]
 
 use pulvis_io::IoError;
-use pulvis_io::frames::{Bounds, FORMATS, Instant, Precision, Series, format};
+use pulvis_io::frames::{Bounds, FORMATS, Instant, Precision, Series, Units, format};
 use pulvis_io::vtk::{
     Column, ContactFrame, Frame, ImageGrid, Numbers, ParticleFrame, PolyData, SeriesWriter, WallFrame,
     write_image,
@@ -92,12 +92,16 @@ fn write_formats(folder: &Path) -> Result<(), IoError> {
         tilt: [0.5, 0.0, -0.25],
         periodic: [true, false, true],
     };
-    let compressed = Series { compressed: true, name: "vtk_compressed", ..series(folder) };
-    let mut writer = (format("vtk")?.open)(&compressed)?;
-    for step in [0, 100, 200] {
-        let time = step as f64 / 700.0;
-        let frame = frame(time);
-        writer.write(&Instant { time, step, bounds, materials: &materials, frame: &frame })?;
+    for name in
+        ["vtk", "hdf5"].into_iter().filter(|name| format(name).is_ok_and(|known| known.missing.is_none()))
+    {
+        let compressed = Series { compressed: true, name: &format!("{name}_compressed"), ..series(folder) };
+        let mut writer = (format(name)?.open)(&compressed)?;
+        for step in [0, 100, 200] {
+            let time = step as f64 / 700.0;
+            let frame = frame(time);
+            writer.write(&Instant { time, step, bounds, materials: &materials, frame: &frame })?;
+        }
     }
     // A grid of 4 x 3 x 2 cells.
     let values: Vec<f64> = (0..24).map(|cell| f64::from(cell) / 7.0).collect();
@@ -106,8 +110,11 @@ fn write_formats(folder: &Path) -> Result<(), IoError> {
     let grid = ImageGrid { origin: [-1.0, 0.0, 0.1], spacing: [0.5, 0.25, 1.0 / 3.0], cells: [4, 3, 2] };
     let columns = [Column::scalar("density", &values), Column::tensor("stress", &tensors)];
     write_image(&folder.join("image.vti"), &grid, &columns)?;
+    let unit = |(name, unit): (&str, &str)| (name.to_owned(), unit.to_owned());
+    let particles = [("radius", "m"), ("v", "m/s"), ("stress", "Pa")].map(unit);
+    let contacts = [("force", "N")].map(unit);
     for (precision, end) in [(Precision::Double, "double"), (Precision::Single, "single")] {
-        for format in FORMATS {
+        for format in FORMATS.iter().filter(|format| format.missing.is_none()) {
             let name = format!("{}_{end}", format.name.replace('-', "_"));
             let mut writer = (format.open)(&Series {
                 folder,
@@ -115,6 +122,7 @@ fn write_formats(folder: &Path) -> Result<(), IoError> {
                 precision,
                 compressed: false,
                 contacts: true,
+                units: Units { particles: &particles, contacts: &contacts },
                 resume: None,
             })?;
             for step in [0, 100, 200] {
@@ -128,7 +136,8 @@ fn write_formats(folder: &Path) -> Result<(), IoError> {
 }
 
 fn series(folder: &Path) -> Series<'_> {
-    Series { folder, name: "", precision: Precision::Double, compressed: false, contacts: true, resume: None }
+    let (precision, units) = (Precision::Double, Units::default());
+    Series { folder, name: "", precision, compressed: false, contacts: true, units, resume: None }
 }
 
 fn frame(time: f64) -> Frame {

@@ -87,6 +87,14 @@ pub enum IoError {
         /// The known names, separated by commas.
         known: String,
     },
+    /// The program was built without a format.
+    #[error("this program was built without the format `{format}`; {advice}, or choose another format")]
+    NotBuilt {
+        /// Its name.
+        format: &'static str,
+        /// How to build a program that has it.
+        advice: &'static str,
+    },
     /// A picture or plot has a size that cannot be drawn.
     #[error(
         "a picture of {width} x {height} pixels cannot be drawn; choose each side between {least} and {most}"

@@ -6,7 +6,7 @@
 //! | module | writes | read by |
 //! | --- | --- | --- |
 //! | [`vtk`] | particles and contacts, one frame per instant, and the index of a run | ParaView, VTK, pyvista, OVITO |
-//! | [`frames`] | instants of a run as VTK, LAMMPS dumps, extended XYZ, npz or CSV | OVITO, LAMMPS, NumPy, pandas |
+//! | [`frames`] | instants of a run as VTK, LAMMPS dumps, extended XYZ, npz, CSV or HDF5 | OVITO, LAMMPS, NumPy, pandas, h5py |
 //! | [`table`] | tables as aligned text, CSV or JSON; time series while a run goes on | people, spreadsheets, scripts |
 //! | [`plot`] | charts of curves as PNG or SVG, or as text | people |
 //! | [`report`] | sections of pictures and tables as one HTML page, and as Markdown | people |

@@ -374,7 +374,7 @@ class Simulation:
         folder : path
             Is made if it does not exist. Later calls go on with the same files, or write those of the next number.
         format : str
-            ``vtk``, ``lammps-dump``, ``xyz``, ``npz`` or ``csv``.
+            ``vtk``, ``lammps-dump``, ``xyz``, ``npz`` or ``csv``, or ``hdf5`` where it was built in.
         contacts : bool
             Whether contacts are written.
         """

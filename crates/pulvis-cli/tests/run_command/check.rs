@@ -162,6 +162,23 @@ fn a_folder_that_a_run_would_refuse_and_the_room_for_its_files_are_told() {
     assert!((0.5..2.0).contains(&(told / truth)), "{told} kB told, {truth} kB written");
 }
 
+#[cfg(not(feature = "hdf5"))]
+#[test]
+fn a_format_that_is_not_built_in_is_refused_before_anything_is_written() {
+    let files = "{ steps = 10 }\n\n[[output.files]]\nformat = \"csv\"\n\n[[output.files]]\nname = \"packed\"\nformat = \"hdf5\"";
+    let place = Place::new("not_built", &[("{ steps = 10 }", files)]);
+    for command in [&["check", "s.toml"][..], &["run", "s.toml", "--output", "out"]] {
+        let refused = place.pulvis(command);
+        assert_eq!(refused.status.code(), Some(2));
+        assert_eq!(
+            error(&refused),
+            "error: s.toml:30:10: output.files[1].format: this program was built without the format \"hdf5\"; expected a program that has it, or another format\n  |\n30| format = \"hdf5\"\n  |          ^^^^^^\n  \
+             help: build it with `cargo build --release -p pulvis-cli --features hdf5`, which needs the HDF5 library and its headers (Debian: libhdf5-dev)\n"
+        );
+    }
+    assert!(!place.0.join("out").exists());
+}
+
 #[test]
 fn output_that_certainly_does_not_fit_onto_the_disk_is_refused() {
     let every_step =

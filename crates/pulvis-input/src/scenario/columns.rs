@@ -20,9 +20,10 @@ pub struct ParticleColumn {
 }
 
 /// Names that some format of output files has for its own columns and arrays, beside those that begin with `contact_`.
-const NAMES_OF_FORMATS: [&str; 26] = [
+const NAMES_OF_FORMATS: [&str; 28] = [
     "x", "y", "z", "vx", "vy", "vz", "omegax", "omegay", "omegaz", "fx", "fy", "fz", "tqx", "tqy", "tqz",
-    "position", "pos", "species", "material", "velo", "forces", "time", "step", "box", "tilt", "periodic",
+    "position", "pos", "species", "velocity", "force", "material", "velo", "forces", "time", "step", "box",
+    "tilt", "periodic",
 ];
 
 /// Reads `[particles.columns]`, in the order of the file. All groups have the same quantities: those of the `first`

@@ -32,7 +32,7 @@ pub struct OutputFiles {
     pub region: Option<Region>,
     /// Whether numbers have 32 bits instead of 64.
     pub single_precision: bool,
-    /// Whether files are compressed; VTK files only.
+    /// Whether files are compressed; VTK and HDF5 files only.
     pub compressed: bool,
 }
 
@@ -60,16 +60,19 @@ pub enum FileFormat {
     Npz,
     /// Comma-separated values.
     Csv,
+    /// HDF5 after H5MD.
+    Hdf5,
 }
 
 impl FileFormat {
     /// All of them, with their names in a scenario.
-    pub const ALL: [(&'static str, Self); 5] = [
+    pub const ALL: [(&'static str, Self); 6] = [
         ("vtk", Self::Vtk),
         ("lammps-dump", Self::LammpsDump),
         ("xyz", Self::Xyz),
         ("npz", Self::Npz),
         ("csv", Self::Csv),
+        ("hdf5", Self::Hdf5),
     ];
 
     /// The name in a scenario.
@@ -168,9 +171,12 @@ fn read_block(
         region.map(|region| check_region(&table, region, sample.domain, sample.enclosure)).transpose()
     });
     let compressed = table.or("compressed", Boolean, false).and_then(|compressed| match &format {
-        Ok(format) if compressed && *format != FileFormat::Vtk => {
+        Ok(format) if compressed && !matches!(format, FileFormat::Vtk | FileFormat::Hdf5) => {
             let found = format!("`compressed` for the format {:?}", format.name());
-            Err(table.refuse("compressed", Problem::rule(found, "the format \"vtk\", or no `compressed`")))
+            Err(table.refuse(
+                "compressed",
+                Problem::rule(found, "the format \"vtk\" or \"hdf5\", or no `compressed`"),
+            ))
         }
         _ => Ok(compressed),
     });

@@ -13,6 +13,7 @@ pub(super) const FORMAT: Format = Format {
     name: "csv",
     summary: "tables with a header line, for pandas and spreadsheets; Pulvis reads the particles back",
     open: |series| Ok(Numbered::open(series, if series.contacts { both_names } else { name }, write)),
+    missing: None,
 };
 
 fn name(name: &str, number: u64) -> Vec<String> {

@@ -16,6 +16,7 @@ pub(super) const FORMAT: Format = Format {
     name: "lammps-dump",
     summary: "text dumps of particles and, as a local dump, of contacts, for OVITO, LAMMPS and VMD",
     open: |series| Ok(Box::new(Dump::open(series)?)),
+    missing: None,
 };
 
 #[derive(Debug)]

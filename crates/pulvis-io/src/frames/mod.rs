@@ -6,6 +6,7 @@
 //! | `lammps-dump` | two text files that grow: particles, and contacts as a local dump | OVITO, LAMMPS, VMD, ASE |
 //! | `xyz` | one extended XYZ file that grows | OVITO, ASE |
 //! | `npz` | one archive of arrays per instant | NumPy |
+//! | `hdf5` | one file per instant and an index of links; where the feature `hdf5` is built in | h5py, MATLAB, h5dump |
 //! | `csv` | one table of particles and one of contacts per instant | pandas, spreadsheets, Pulvis |
 //!
 //! Numbers are in SI. Text has the shortest decimals that read back as the same number, of 64 bits or, with
@@ -13,6 +14,7 @@
 
 mod csv;
 mod growing;
+mod hdf5;
 mod lammps;
 mod names;
 mod npz;
@@ -20,6 +22,7 @@ mod numbered;
 mod vtk;
 mod xyz;
 
+pub use hdf5::name_of as hdf5_name;
 pub use names::{component_names, shape};
 
 use crate::IoError;
@@ -29,7 +32,8 @@ use std::fmt::Debug;
 use std::path::Path;
 
 /// Every format. A new one is a file beside this one and a line here.
-pub const FORMATS: &[Format] = &[vtk::FORMAT, lammps::FORMAT, xyz::FORMAT, npz::FORMAT, csv::FORMAT];
+pub const FORMATS: &[Format] =
+    &[vtk::FORMAT, lammps::FORMAT, xyz::FORMAT, npz::FORMAT, csv::FORMAT, hdf5::FORMAT];
 
 /// A way to write instants.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +44,8 @@ pub struct Format {
     pub summary: &'static str,
     /// Starts the files, or goes on with them.
     pub open: fn(&Series<'_>) -> Result<Box<dyn FrameWriter>, IoError>,
+    /// How to build a program that has it, where this one was built without.
+    pub missing: Option<&'static str>,
 }
 
 /// Where instants go, and how.
@@ -51,12 +57,23 @@ pub struct Series<'a> {
     pub name: &'a str,
     /// How exact numbers are.
     pub precision: Precision,
-    /// Whether files are compressed; of use to `vtk` only.
+    /// Whether files are compressed; of use to `vtk` and `hdf5` only.
     pub compressed: bool,
     /// Whether contacts are written, where a format has files of their own for them.
     pub contacts: bool,
+    /// The units of columns; of use to `hdf5` only.
+    pub units: Units<'a>,
     /// How far an interrupted run had come; what was written later is cut off or replaced. `None` starts anew.
     pub resume: Option<&'a FramePosition>,
+}
+
+/// Names of columns and their units in SI.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Units<'a> {
+    /// Those of particles.
+    pub particles: &'a [(String, String)],
+    /// Those of contacts.
+    pub contacts: &'a [(String, String)],
 }
 
 /// How exact written numbers are.

@@ -16,6 +16,7 @@ pub(super) const FORMAT: Format = Format {
     name: "npz",
     summary: "arrays of particles and contacts, one archive per instant, for numpy.load",
     open: |series| Ok(Numbered::open(series, names, write)),
+    missing: None,
 };
 
 /// Sizes and offsets in the archive have 32 bits.

@@ -62,12 +62,13 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 fn series<'a>(folder: &'a Path, resume: Option<&'a FramePosition>) -> Series<'a> {
-    Series { folder, name: "sample", precision: Precision::Double, compressed: false, contacts: true, resume }
+    let (precision, units) = (Precision::Double, Units { particles: &[], contacts: &[] });
+    Series { folder, name: "sample", precision, compressed: false, contacts: true, units, resume }
 }
 
 #[test]
 fn every_format_goes_on_where_a_checkpoint_was_with_the_same_bytes() {
-    for format in FORMATS {
+    for format in FORMATS.iter().filter(|format| format.missing.is_none()) {
         let [whole, resumed] = [(); 2].map(|()| tempfile::tempdir().unwrap());
         write(&mut *(format.open)(&series(whole.path(), None)).unwrap(), 0..5, BOUNDS);
         let mut first = (format.open)(&series(resumed.path(), None)).unwrap();
@@ -116,6 +117,7 @@ fn text_formats_hold_the_very_numbers_and_single_precision_the_nearest_of_32_bit
                 precision,
                 compressed: false,
                 contacts: true,
+                units: Units::default(),
                 resume: None,
             };
             write(&mut *(format(name).unwrap().open)(&series).unwrap(), 1..2, BOUNDS);
@@ -189,6 +191,7 @@ fn vtk_frames_of_single_precision_and_tensors_come_back() {
         precision: Precision::Single,
         compressed: false,
         contacts: true,
+        units: Units::default(),
         resume: None,
     };
     write(&mut *(format("vtk").unwrap().open)(&series).unwrap(), 3..4, BOUNDS);
@@ -204,4 +207,68 @@ fn vtk_frames_of_single_precision_and_tensors_come_back() {
         assert_eq!(found.to_bits(), f64::from(*expected as f32).to_bits());
     }
     assert_eq!(read.particles.column("id"), written.particles.column("id"));
+}
+
+#[cfg(not(feature = "hdf5"))]
+#[test]
+fn a_format_that_is_not_built_in_says_how_to_build_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let hdf5 = format("hdf5").unwrap();
+    assert!(hdf5.missing.is_some());
+    let error = (hdf5.open)(&series(folder.path(), None)).unwrap_err().to_string();
+    assert!(
+        error.starts_with("this program was built without the format `hdf5`; build it with `cargo"),
+        "{error}"
+    );
+    assert!(error.contains("--features hdf5") && error.contains("libhdf5-dev"), "{error}");
+    assert!(files(folder.path()).is_empty());
+}
+
+/// Values are compared by h5py: `scripts/check_formats.py`.
+#[cfg(feature = "hdf5")]
+#[test]
+fn hdf5_files_are_whole_and_a_cut_index_is_refused_and_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = (format("hdf5").unwrap().open)(&series(folder.path(), None)).unwrap();
+    write(&mut *writer, 0..3, BOUNDS);
+    let position = FramePosition { frames: 4, files: Vec::new() };
+    let before = files(folder.path());
+    let names: Vec<&str> = before.keys().map(String::as_str).collect();
+    assert_eq!(names, ["sample.h5", "sample_0000.h5", "sample_0001.h5", "sample_0002.h5"]);
+    let error = (format("hdf5").unwrap().open)(&series(folder.path(), Some(&position))).unwrap_err();
+    assert!(error.to_string().contains("it lists 3 frames, and the checkpoint knows of 4"), "{error}");
+    // No index at all, and one that is something else.
+    let position = FramePosition { frames: 2, files: Vec::new() };
+    std::fs::write(folder.path().join("sample.h5"), "something else").unwrap();
+    let error = (format("hdf5").unwrap().open)(&series(folder.path(), Some(&position))).unwrap_err();
+    assert!(error.to_string().starts_with("cannot read "), "{error}");
+    std::fs::remove_file(folder.path().join("sample.h5")).unwrap();
+    assert!((format("hdf5").unwrap().open)(&series(folder.path(), Some(&position))).is_err());
+    // A folder that is not there any more is an error of the system.
+    drop(folder);
+    let frame = frame(3);
+    let instant = Instant { time: 1.0, step: 1, bounds: BOUNDS, materials: &[], frame: &frame };
+    let error = writer.write(&instant).unwrap_err().to_string();
+    assert!(error.contains("create the folder first"), "{error}");
+}
+
+#[cfg(feature = "hdf5")]
+#[test]
+fn hdf5_files_bear_frames_without_particles_and_contacts() {
+    for compressed in [false, true] {
+        let folder = tempfile::tempdir().unwrap();
+        let series = Series { compressed, ..series(folder.path(), None) };
+        let mut writer = (format("hdf5").unwrap().open)(&series).unwrap();
+        let mut frame = frame(0);
+        for data in [&mut frame.particles, &mut frame.contacts] {
+            data.points.clear();
+            data.columns = vec![
+                ("id".to_owned(), Numbers::Integer(Vec::new())),
+                ("v".to_owned(), Numbers::Vector(Vec::new())),
+            ];
+        }
+        let instant = Instant { time: 0.0, step: 0, bounds: BOUNDS, materials: &[], frame: &frame };
+        writer.write(&instant).unwrap();
+        assert_eq!(files(folder.path()).len(), 2);
+    }
 }

@@ -15,6 +15,7 @@ pub(super) const FORMAT: Format = Format {
         let writer = writer.with_precision(precision).compressed(series.compressed);
         Ok(Box::new(writer))
     },
+    missing: None,
 };
 
 impl FrameWriter for SeriesWriter {

@@ -16,6 +16,7 @@ pub(super) const FORMAT: Format = Format {
     name: "xyz",
     summary: "extended XYZ, all instants in one file, for OVITO and ASE; particles only",
     open: |series| Ok(Box::new(Xyz::open(series)?)),
+    missing: None,
 };
 
 #[derive(Debug)]

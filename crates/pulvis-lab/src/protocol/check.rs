@@ -15,6 +15,7 @@ use super::damping::damping_ratios;
 use super::disk::{DiskForecast, disk_forecast, refuse_full_disk};
 use super::error::PrepareError;
 use super::folder;
+use super::formats::refuse_missing_formats;
 use super::measure::Measure;
 use super::memory::{held_states, memory_forecast};
 use super::regime::{StageRegime, regimes};
@@ -150,6 +151,7 @@ impl Preflight {
 /// # Errors
 /// What would keep the run from starting, but for its output folder, which is among the warnings.
 pub fn preflight(scenario: &Scenario) -> Result<Preflight, PrepareError> {
+    refuse_missing_formats(scenario)?;
     let mut prepared = prepare(scenario)?;
     let memory = memory_forecast(scenario);
     let particles = &prepared.particles;

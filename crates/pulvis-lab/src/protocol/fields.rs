@@ -133,7 +133,7 @@ const PARTICLES: &[Description] = &[
 ];
 
 /// Fields of contacts.
-const CONTACTS: &[Description] = &[
+pub(super) const CONTACTS: &[Description] = &[
     ("id1", "first particle", "1"),
     ("id2", "second particle; of a wall -1 - its number", "1"),
     ("force", "force on the first body", "N"),
@@ -185,8 +185,12 @@ pub(super) fn fields(scenario: &Scenario, series: &[String]) -> Result<Table, Io
             };
             let components = component_count(name);
             let columns = if name == "memory" {
-                let prefix = if format == FileFormat::Npz.name() { "contact_" } else { "" };
-                let names = plan.selection.memory().iter().map(|name| format!("{prefix}{name}"));
+                let full = |name: &&str| match format {
+                    _ if format == FileFormat::Npz.name() => format!("contact_{name}"),
+                    _ if format == FileFormat::Hdf5.name() => hdf5_path(name, true),
+                    _ => (*name).to_owned(),
+                };
+                let names = plan.selection.memory().iter().map(full);
                 names.collect::<Vec<_>>().join(" ")
             } else {
                 columns(format, name, components, "contact_")
@@ -212,7 +216,7 @@ fn of_series(scenario: &Scenario, column: &str) -> Option<(String, &'static str)
 }
 
 /// Name, meaning and unit of what is written of particles.
-fn of_particles(scenario: &Scenario, selection: &Selection<'_>) -> Vec<(String, String, String)> {
+pub(super) fn of_particles(scenario: &Scenario, selection: &Selection<'_>) -> Vec<(String, String, String)> {
     let group = scenario.particles.first().map(|group| &group.columns[..]);
     let own = group.or_else(|| scenario.inlets.first().map(|inlet| &inlet.columns[..])).unwrap_or_default();
     let describe = |name: &str| {
@@ -256,6 +260,7 @@ fn columns(format: &str, name: &str, components: usize, prefix: &str) -> String 
     let is = |known: FileFormat| format == known.name();
     match name {
         _ if is(FileFormat::Npz) => format!("{prefix}{name}"),
+        _ if is(FileFormat::Hdf5) => hdf5_path(name, !prefix.is_empty()),
         "position" if is(FileFormat::Vtk) => "Points".to_owned(),
         "position" if is(FileFormat::Xyz) => "pos".to_owned(),
         "v" if is(FileFormat::Xyz) => "velo".to_owned(),
@@ -268,6 +273,12 @@ fn columns(format: &str, name: &str, components: usize, prefix: &str) -> String 
     }
 }
 
+/// Where the numbers of a field stand in an HDF5 file.
+fn hdf5_path(name: &str, of_contacts: bool) -> String {
+    let group = if of_contacts { "contacts" } else { "particles/all" };
+    format!("{group}/{}/value", pulvis_io::frames::hdf5_name(name))
+}
+
 /// The files of particles and of contacts, with an asterisk where a number stands.
 fn files(plan: &Plan<'_>) -> [String; 2] {
     let name = plan.name;
@@ -276,6 +287,7 @@ fn files(plan: &Plan<'_>) -> [String; 2] {
         Some(FileFormat::LammpsDump) => [format!("{name}.dump"), format!("{name}.contacts.dump")],
         Some(FileFormat::Xyz) => [format!("{name}.xyz"), String::new()],
         Some(FileFormat::Npz) => [format!("{name}_*.npz"), format!("{name}_*.npz")],
+        Some(FileFormat::Hdf5) => [format!("{name}_*.h5"), format!("{name}_*.h5")],
         Some(FileFormat::Csv) => [format!("{name}_*.csv"), format!("{name}_contacts_*.csv")],
         Some(FileFormat::Vtk) | None => {
             [format!("{prefix}particles_*.vtp"), format!("{prefix}contacts_*.vtp")]

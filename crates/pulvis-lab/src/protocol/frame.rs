@@ -103,6 +103,18 @@ fn memory_columns(scenario: &Scenario) -> Vec<&'static str> {
     names
 }
 
+/// The units of those columns, by their names.
+pub(super) fn memory_units(scenario: &Scenario) -> Vec<(String, String)> {
+    let contacts = scenario.contacts.iter().chain(scenario.stages.iter().flat_map(|stage| &stage.contacts));
+    let with_unit = |name: &'static str| {
+        let (name, unit) = name.split_once(" [")?;
+        Some((name.to_owned(), unit.trim_end_matches(']').to_owned()))
+    };
+    contacts
+        .flat_map(|contact| contact.model.memory_layout().names().filter_map(with_unit).collect::<Vec<_>>())
+        .collect()
+}
+
 /// The name of a column of memory without what follows it.
 fn column_name(name: &'static str) -> &'static str {
     name.split(' ').next().unwrap_or(name)

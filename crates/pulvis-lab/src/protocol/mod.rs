@@ -18,6 +18,7 @@ mod explain;
 mod feasible;
 mod fields;
 mod folder;
+mod formats;
 mod fracture;
 mod frame;
 mod groups;

@@ -16,6 +16,7 @@ use super::disk::refuse_full_disk;
 use super::ending::Ending;
 use super::error::{PrepareError, RunError};
 use super::folder::{LIST, OutputFolder, RECORD};
+use super::formats::refuse_missing_formats;
 use super::measure::Measure;
 use super::ranks::Leader;
 use super::setup::prepare;
@@ -167,6 +168,7 @@ fn run_as_leader(
     stop: &AtomicBool,
     watch: Watch<'_>,
 ) -> Result<RunSummary, RunError> {
+    refuse_missing_formats(scenario)?;
     let prepared = prepare(scenario)?;
     for warning in warnings(scenario, &prepared) {
         (options.warn)(&warning);
@@ -218,6 +220,7 @@ fn resume_as_leader(
     let resolved = std::fs::read_to_string(&record).map_err(unreadable)?;
     let scenario =
         Scenario::from_str(&record.display().to_string(), &resolved).map_err(PrepareError::from)?;
+    refuse_missing_formats(&scenario)?;
     // Others read the same files, which change from here on.
     Leader::new(options.exchange.as_ref()).wait_for_others()?;
     let Some(found) = found else {

@@ -6,12 +6,13 @@ use std::sync::Arc;
 use pulvis_core::Simulation;
 use pulvis_input::scenario::{Interval, Scenario, Snapshots as SnapshotPlan};
 use pulvis_io::IoError;
-use pulvis_io::frames::{self, FramePosition, FrameWriter, Precision, Series};
+use pulvis_io::frames::{self, FramePosition, FrameWriter, Precision, Series, Units};
 use pulvis_io::table::SeriesPosition;
 use serde::{Deserialize, Serialize};
 
 use super::error::RunError;
 use super::folder::OutputFolder;
+use super::formats::units;
 use super::frame::{Selection, selected_frame};
 use super::outlines::bounds;
 use super::pace::Due;
@@ -101,7 +102,7 @@ impl<'a> Snapshots<'a> {
     ) -> Result<Self, IoError> {
         let mut blocks = Vec::new();
         for plan in plans(scenario) {
-            let pen = Pen::new(open(&plan, folder, None)?);
+            let pen = Pen::new(open(&plan, scenario, folder, None)?);
             let due = plan.every.map(|every| Due::from_now(every, simulation));
             blocks.push(Block { pen, selection: plan.selection, due, last_step: None });
         }
@@ -118,7 +119,7 @@ impl<'a> Snapshots<'a> {
         for (plan, record) in plans(scenario).into_iter().zip(records) {
             let files = record.files.iter().map(|&(bytes, hash)| SeriesPosition { bytes, hash });
             let position = FramePosition { frames: record.frames, files: files.collect() };
-            let pen = Pen::new(open(&plan, folder, Some(&position))?);
+            let pen = Pen::new(open(&plan, scenario, folder, Some(&position))?);
             let due = plan.every.map(|every| Due::resume(every, record.due));
             blocks.push(Block { pen, selection: plan.selection, due, last_step: record.last_step });
         }
@@ -211,16 +212,19 @@ impl Block<'_> {
 /// The writer of a block.
 fn open(
     plan: &Plan<'_>,
+    scenario: &Scenario,
     folder: &Path,
     resume: Option<&FramePosition>,
 ) -> Result<Box<dyn FrameWriter>, IoError> {
     let (name, precision, contacts) = (plan.name, plan.precision, plan.selection.has_contacts());
+    let [of_particles, of_contacts] = units(scenario, &plan.selection);
     (frames::format(plan.format)?.open)(&Series {
         folder,
         name,
         precision,
         compressed: plan.compressed,
         contacts,
+        units: Units { particles: &of_particles, contacts: &of_contacts },
         resume,
     })
 }

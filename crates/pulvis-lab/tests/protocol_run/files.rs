@@ -23,7 +23,10 @@ pub(super) fn every_format() -> Vec<OutputFiles> {
         single_precision: number == 2,
         compressed: false,
     };
-    FileFormat::ALL.into_iter().enumerate().map(block).collect()
+    let built = |(name, _): &(&str, FileFormat)| {
+        pulvis_io::frames::format(name).is_ok_and(|format| format.missing.is_none())
+    };
+    FileFormat::ALL.into_iter().filter(built).enumerate().map(block).collect()
 }
 
 /// The columns of a table.

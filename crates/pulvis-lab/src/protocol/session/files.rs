@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use pulvis_input::Scenario;
-use pulvis_io::frames::{self, FrameWriter, Instant, Precision, Series};
+use pulvis_io::frames::{self, FrameWriter, Instant, Precision, Series, Units};
 
 use super::Session;
 use crate::protocol::checkpoint::{Checkpoint, FindError, Label, RunRecord, find};
 use crate::protocol::error::{PrepareError, RunError};
+use crate::protocol::formats::units;
 use crate::protocol::frame::{Selection, frame_of, selected_frame};
 use crate::protocol::measure::Measure;
 use crate::protocol::openings::Openings;
@@ -118,6 +119,7 @@ impl Session {
         let format = frames::format(format)?;
         let failed = |source| RunError::File { file: folder.to_owned(), source };
         std::fs::create_dir_all(folder).map_err(failed)?;
+        let [particles, of_contacts] = units(&self.scenario, &Selection::default_of_runs(&self.scenario));
         let outputs = &mut self.outputs.0;
         let known = |output: &Output| {
             (output.folder.as_path(), output.format, output.contacts) == (folder, format.name, contacts)
@@ -132,6 +134,7 @@ impl Session {
                     precision,
                     compressed: false,
                     contacts,
+                    units: Units { particles: &particles, contacts: &of_contacts },
                     resume: None,
                 })?;
                 let writer = Mutex::new(writer);
