@@ -1,13 +1,15 @@
-"""What Python costs: import, advance(1), callbacks, forces, views, memory. `python examples/measure.py [PARTICLES]`
+"""What Python costs: import, advance(1), callbacks, forces, views, memory, Ctrl-C. `python examples/measure.py [PARTICLES]`
 
 The numbers of the book's chapter "From Python" are from this script.
 """
 
 from __future__ import annotations
 
+import _thread
 import resource
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable
 
@@ -45,6 +47,25 @@ def resident() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
 
 
+def stopped_after(work: Callable[[], object]) -> float:
+    """Seconds from Ctrl-C to its end, the most of five times."""
+    waits = []
+    for _ in range(5):
+        asked = []
+
+        def interrupt() -> None:
+            time.sleep(0.4)
+            asked.append(time.perf_counter())
+            _thread.interrupt_main()
+
+        threading.Thread(target=interrupt).start()
+        try:
+            work()
+        except KeyboardInterrupt:
+            waits.append(time.perf_counter() - asked[0])
+    return max(waits)
+
+
 def main() -> None:
     code = "import time, numpy; begin = time.perf_counter(); import pulvis; print(time.perf_counter() - begin)"
     runs = [float(subprocess.check_output([sys.executable, "-c", code])) for _ in range(5)]
@@ -61,6 +82,15 @@ def main() -> None:
     pushed = gas(1)
     pushed.apply(lambda simulation: [[0.0, 0.0, 1e-6]])
     print(f"forces of a function in every step: {1e6 * (per_call(lambda: pushed.advance(1000), 5) / 1000 - step):.2f} us a step more")
+
+    luding = pulvis.law("luding", k1=100, kp=500, kc=100, phi_f=0.05)
+    speeds = np.geomspace(0.02, 20, 2_000_000)
+    bed = gas(40)
+    print(
+        f"Ctrl-C ends a bed of {len(bed.particles)} particles within {1e3 * stopped_after(lambda: bed.advance(10**9)):.0f} ms, "
+        f"a sweep within {1e3 * stopped_after(lambda: pulvis.collide(luding, radius=1e-3, density=2e3, velocity=speeds)):.0f} ms"
+    )
+    del bed
 
     edge = round(float(sys.argv[1] if len(sys.argv) > 1 else 1e6) ** (1 / 3))
     before = resident()

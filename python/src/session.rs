@@ -177,6 +177,8 @@ impl Session {
             "material" => {
                 Some(PyArray1::from_iter(py, rows.iter().map(|&row| particles.materials()[row])).into_any())
             }
+            // None are applied.
+            "applied_force" => Some(columns::vectors(py, rows.iter().map(|_| [0.0; 3]))?.into_any()),
             _ => None,
         })
     }
@@ -210,8 +212,10 @@ impl Session {
             "force",
             "torque",
         ];
-        let further = self.stages.simulation().particles().columns().iter().map(|column| column.name.clone());
-        own.into_iter().map(str::to_owned).chain(further).collect()
+        let simulation = self.stages.simulation();
+        let applied = simulation.has_applied_forces().then_some("applied_force");
+        let further = simulation.particles().columns().iter().map(|column| column.name.clone());
+        own.into_iter().chain(applied).map(str::to_owned).chain(further).collect()
     }
 
     /// The columns of all contacts that act.

@@ -52,6 +52,7 @@ pub fn vectors<'s>(simulation: &'s Simulation, name: &str) -> Option<Vectors<'s>
         "angular_velocity" => particles.angular_velocities(),
         "force" => particles.forces(),
         "torque" => particles.torques(),
+        "applied_force" => return particles.applied_forces(),
         _ => return None,
     })
 }

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import _thread
 import math
+import threading
+import time
 
 import numpy as np
 import pytest
@@ -92,6 +95,48 @@ def test_results_do_not_depend_on_the_number_of_threads(luding: pulvis.Law) -> N
     one = collide(1)
     for threads in (2, 5):
         assert np.array_equal(one, collide(threads))
+
+
+def test_a_sweep_of_everything_has_the_bits_of_its_collisions_alone(luding: pulvis.Law) -> None:
+    random = np.random.default_rng(5)
+    count = 60
+    swept = {
+        "radius": random.uniform(0.5e-3, 2e-3, count),
+        "density": random.uniform(1500, 3000, count),
+        "velocity": random.uniform(0.02, 2, count),
+    }
+    # Few values of a parameter of the law, so that collisions with the same laws are side by side in the processor.
+    strength = random.choice([50.0, 100.0, 150.0], count)
+    together = pulvis.collide(luding.replace(kc=strength), **swept)
+    for index in range(count):
+        one = {name: values[index] for name, values in swept.items()}
+        alone = pulvis.collide(luding.replace(kc=strength[index]), **one)
+        for name in ("restitution", "overlap_max", "overlap_end", "contact_duration", "energy_dissipated", "energy_error"):
+            assert np.array_equal(together[name][index], alone[name], equal_nan=True), (name, index)
+        assert together.regime[index] == alone.regime and together.stop_branch[index] == alone.stop_branch
+
+
+def test_other_ways_to_give_the_speed_are_swept_alike(luding: pulvis.Law) -> None:
+    chi = np.linspace(0.05, 1.4, 40)
+    hits = pulvis.collide(luding, **BODIES, chi=chi)
+    again = pulvis.collide(luding, **BODIES, velocity=hits.velocity)
+    assert np.array_equal(hits.restitution, again.restitution)
+    np.testing.assert_allclose(hits["chi"], chi, rtol=1e-12)
+
+
+def test_ctrl_c_stops_a_sweep(luding: pulvis.Law) -> None:
+    asked: list[float] = []
+
+    def interrupt() -> None:
+        time.sleep(0.5)
+        asked.append(time.monotonic())
+        _thread.interrupt_main()
+
+    threading.Thread(target=interrupt).start()
+    with pytest.raises(KeyboardInterrupt):
+        pulvis.collide(luding, **BODIES, velocity=np.geomspace(0.02, 20, 1_000_000), threads=1)
+    # Promised are 0.2 s; a machine with other work may be late.
+    assert time.monotonic() - asked[0] < 1.0
 
 
 def test_a_tuple_gives_each_body_its_own_value(luding: pulvis.Law) -> None:

@@ -50,6 +50,33 @@ def test_the_stubs_take_the_arguments_that_the_compiled_part_takes() -> None:
         assert given == [argument.arg for argument in function.args.args], function.name
 
 
+def test_the_stubs_of_the_session_take_the_arguments_that_its_methods_take() -> None:
+    stub = ast.parse((PACKAGE / "_native.pyi").read_text())
+    [session] = [s for s in stub.body if isinstance(s, ast.ClassDef) and s.name == "Session"]
+    compared = 0
+    for method in [s for s in session.body if isinstance(s, ast.FunctionDef)]:
+        decorators = {decorator.id for decorator in method.decorator_list if isinstance(decorator, ast.Name)}
+        if "property" in decorators or method.name == "__init__":
+            continue
+        signature = getattr(_native.Session, method.name).__text_signature__
+        given = [argument.strip().split("=")[0].lstrip("$") for argument in signature.strip("()").split(",")]
+        given = [argument for argument in given if argument not in ("", "/")]
+        assert given == [argument.arg for argument in method.args.args], method.name
+        compared += 1
+    assert compared > 15
+
+
+def test_what_is_public_is_typed_and_listed() -> None:
+    assert (PACKAGE / "py.typed").is_file()
+    assert set(pulvis.__all__) <= set(dir(pulvis))
+    for name in pulvis.__all__:
+        thing = getattr(pulvis, name)
+        if isinstance(thing, type):
+            for part in public(thing) - public(Exception):
+                documented = (getattr(thing, part).__doc__ or "").strip()
+                assert documented, f"{name}.{part} has no documentation"
+
+
 def test_types_hold() -> None:
     pytest.importorskip("mypy")
     config = Path(__file__).parents[1] / "pyproject.toml"

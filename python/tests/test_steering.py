@@ -191,14 +191,124 @@ def test_a_simulation_goes_on_from_the_checkpoint_of_a_run(gas: dict[str, Any], 
     assert resumed.is_over and resumed.measure()["kinetic"] == run.timeseries.kinetic[-1]
 
 
-def test_no_checkpoint_is_written_of_what_it_cannot_hold(gas: dict[str, Any], tmp_path: Path) -> None:
-    simulation = pulvis.Simulation(gas)
-    simulation.advance(1)
-    simulation.apply(np.zeros((216, 3)))
-    with pytest.raises(pulvis.RunError, match="applies forces"):
-        simulation.save(tmp_path / "state.pulvis")
-    simulation.apply(None)
+def test_forces_and_walls_of_the_program_are_in_checkpoints(tmp_path: Path) -> None:
+    whole = ball_in_a_box(gravity=[0, 0, -9.81])
+    whole.apply([[1e-6, 2e-6, 0.0]])
+    whole.walls["z-high"].velocity = (0, 0, -0.3)
+    whole.walls["x-low"].move("cosine", displacement=(2e-4, 0, 0), period=0.01, cycles=3)
+    whole.walls["y-high"].present = False
+    whole.particles.add("charge", "C", 3e-12)
+    whole.advance(500)
+    whole.save(tmp_path / "state.pulvis")
+    resumed = pulvis.Simulation.resume(tmp_path / "state.pulvis")
+    assert np.array_equal(resumed.particles.applied_force, [[1e-6, 2e-6, 0.0]])
+    for simulation in (whole, resumed):
+        simulation.advance(1500)
+    assert not resumed.walls["y-high"].present and resumed.walls["x-low"].motion == "cosine"
+    for name, wall in whole.walls.items():
+        again = resumed.walls[name]
+        assert np.array_equal(again.point, wall.point) and np.array_equal(again.velocity, wall.velocity), name
+    assert resumed.particles.names == whole.particles.names and "applied_force" in whole.particles.names
+    for name in whole.particles.names:
+        assert np.array_equal(resumed.particles[name], whole.particles[name]), name
+    assert whole.particles.velocity[0, 1] > 0 and resumed.measure() == pytest.approx(whole.measure(), rel=0, nan_ok=True)
+
+
+def test_a_function_that_gives_forces_goes_on_with_the_same_bits_if_it_is_given_again(
+    gas: dict[str, Any], tmp_path: Path
+) -> None:
+    def drag(simulation: pulvis.Simulation) -> Any:
+        return -1e-6 * simulation.particles.velocity
+
+    whole = pulvis.Simulation(gas)
+    whole.apply(drag)
+    whole.advance(60)
+    whole.save(tmp_path / "state.pulvis")
+    resumed = pulvis.Simulation.resume(tmp_path / "state.pulvis")
+    # Until then what it has said last acts on.
+    assert np.array_equal(resumed.particles.applied_force, whole.particles.applied_force)
+    resumed.apply(drag)
+    for simulation in (whole, resumed):
+        simulation.advance(60)
+    for name in whole.particles.names:
+        assert np.array_equal(resumed.particles[name], whole.particles[name]), name
+
+
+STREAM: dict[str, Any] = {
+    "materials": {"grain": {"density": 2500}},
+    "contacts": {"grain-grain": {"normal": {"law": "linear", "k": 2000}}},
+    "domain": {"lower": [0, 0, 0], "upper": [10e-3, 10e-3, 20e-3], "periodic": ["x", "y"]},
+    "particles": [
+        {
+            "material": "grain",
+            "radius": {"distribution": "fixed", "value": 0.4e-3},
+            "arrangement": {"kind": "lattice", "lower": [0, 0, 2e-3], "counts": [3, 1, 1], "spacing": 3e-3},
+        }
+    ],
+    "inlets": [
+        {
+            "name": "stream",
+            "material": "grain",
+            "number_rate": 20000,
+            "region": {"kind": "cylinder", "start": [5e-3, 5e-3, 14e-3], "end": [5e-3, 5e-3, 18e-3], "radius": 3e-3},
+            "radius": {"distribution": "fixed", "value": 0.4e-3},
+            "velocity": {"mean": [0, 0, -1.0]},
+        }
+    ],
+    "stages": [{"name": "flow", "until": {"time": 10e-3}}],
+}
+
+
+def test_a_force_belongs_to_its_particle_and_those_that_come_later_have_none(tmp_path: Path) -> None:
+    simulation = pulvis.Simulation(STREAM)
+    particles = simulation.particles
+    first = np.array([[1e-6, 0, 0], [0, 2e-6, 0], [0, 0, 3e-6]])
+    simulation.apply(first)
+    time = simulation.time
+    while len(particles) < 20:
+        simulation.advance(50)
+    expected = np.vstack([first, np.zeros((len(particles) - 3, 3))])
+    assert np.array_equal(particles.id[:3], [0, 1, 2]) and np.array_equal(particles.applied_force, expected)
+    # Nothing touches these three: force times time over mass, two kicks of round-off a step.
+    gained = first * (simulation.time - time) / particles.mass[0]
+    np.testing.assert_allclose(particles.velocity[:3], gained, rtol=1e-9)
+    # Those that came move as they did, down the stream.
+    assert np.array_equal(particles.velocity[-1], [0, 0, -1.0])
+    count = len(particles)
+    with pytest.raises(pulvis.InputError, match=rf"expected \({count}, 3\): a vector for each .* with `ids=`"):
+        simulation.apply(first)
+    # A refusal leaves what was.
+    assert np.array_equal(particles.applied_force, expected)
+    simulation.apply([0, 0, 5e-6], ids=particles.id[[1, -1]])
+    expected[[1, -1]] = [0, 0, 5e-6]
+    assert np.array_equal(particles.applied_force, expected)
+    assert np.array_equal(particles.view("applied_force"), expected[particles.row_ids])
     simulation.save(tmp_path / "state.pulvis")
+    resumed = pulvis.Simulation.resume(tmp_path / "state.pulvis")
+    while len(particles) == count:
+        for one in (simulation, resumed):
+            one.advance(100)
+    assert np.array_equal(particles.applied_force[:count], expected)
+    assert np.array_equal(resumed.particles.velocity, particles.velocity)
+    assert np.array_equal(resumed.particles.applied_force, particles.applied_force)
+
+
+def test_forces_by_ids_that_cannot_be_are_refused() -> None:
+    simulation = pulvis.Simulation(STREAM)
+    for forces, ids, text in (
+        ([[0, 0, 0]], [7], "there is no particle 7 now"),
+        ([[0, 0, 0]] * 2, [1, 1], "twice"),
+        ([[0, 0, 0]] * 2, [0, 1, 2], r"shape \(2, 3\), expected \(3, 3\)"),
+        ([[0, 0, 0]], [0.5], "whole numbers"),
+        ([["x", 0, 0]], [0], "array of numbers"),
+        (None, [0], "go with an array"),
+        (lambda now: now, [0], "go with an array"),
+    ):
+        with pytest.raises(pulvis.InputError, match=text):
+            simulation.apply(forces, ids=ids)
+    assert not simulation.particles.applied_force.any() and "applied_force" not in simulation.particles.names
+    with pytest.raises(pulvis.InputError, match="Simulation.apply"):
+        simulation.particles.applied_force = np.zeros((3, 3))
 
 
 def test_instants_and_pictures_are_files(gas: dict[str, Any], tmp_path: Path) -> None:

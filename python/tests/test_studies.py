@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import shutil
+import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -79,3 +83,42 @@ def test_a_cluster_of_dask_gives_the_values_of_this_process(gas: dict[str, Any],
         here = pulvis.study(gas, over, tmp_path / "here", executor=executor)
     assert [case.values for case in there] == [case.values for case in here]
     assert len(there.failed) == 2 and all("k: -5 N/m" in (case.error or "") for case in there.failed)
+
+
+#: A script as users start it: the runs of a study go to the ranks.
+ON_RANKS = """
+import json, sys
+from pathlib import Path
+import pulvis
+
+if __name__ == "__main__":
+    from mpi4py.futures import MPIPoolExecutor
+
+    task = json.loads(Path(sys.argv[1]).read_text())
+    with MPIPoolExecutor() as executor:
+        study = pulvis.study(task["scenario"], task["over"], sys.argv[2], executor=executor)
+    print(json.dumps([[case.values, case.error] for case in study]))
+"""
+
+
+def test_ranks_of_mpi_give_the_values_of_this_process(gas: dict[str, Any], tmp_path: Path) -> None:
+    pytest.importorskip("mpi4py")
+    launcher = shutil.which("mpiexec")
+    if launcher is None:
+        pytest.skip("there is no mpiexec")
+    over = {"seed": [1, 2], "contacts.glass-glass.normal.k": [1000, -5]}
+    (tmp_path / "script.py").write_text(ON_RANKS)
+    (tmp_path / "task.json").write_text(json.dumps({"scenario": gas, "over": over}))
+    # Open MPI wants to be told that there are fewer processors than ranks, and that whoever tests may be root.
+    variables = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    variables |= {"OMPI_MCA_rmaps_base_oversubscribe": "1", "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe"}
+    command = [launcher, "-n", "3", sys.executable, "-m", "mpi4py.futures", "script.py", "task.json", "there"]
+    ran = subprocess.run(
+        command, capture_output=True, text=True, check=False, cwd=tmp_path, env={**os.environ, **variables}, timeout=120
+    )
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    there = json.loads(ran.stdout)
+    with ThreadPoolExecutor(2) as executor:
+        here = pulvis.study(gas, over, tmp_path / "here", executor=executor)
+    assert json.dumps([[case.values, case.error] for case in here]) == json.dumps(there)
+    assert sum(error is not None for _, error in there) == 2

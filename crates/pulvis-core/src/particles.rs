@@ -59,7 +59,8 @@ pub struct Particles {
     pub(crate) velocity_predicted: Vec<Packed4>,
     /// Angular velocity [rad/s] and 1/radius [1/m].
     pub(crate) angular_velocity_predicted: Vec<Packed4>,
-    /// Forces that a program applies [N], which contacts and background come on top of; empty where there are none.
+    /// Forces that a program applies [N], which contacts and background come on top of; empty where there are none. Particles
+    /// that are inserted later have zero.
     pub(crate) applied: Vec<Packed4>,
     /// Quantities that the engine does not use.
     pub(crate) columns: Vec<NamedColumn>,
@@ -239,6 +240,11 @@ impl Particles {
     /// Total torques [N m].
     pub fn torques(&self) -> Vectors<'_> {
         Vectors(Column::Torques(&self.forces_and_torques[..self.len()]))
+    }
+
+    /// Forces that a program [applies](crate::Simulation::set_applied_forces) [N]; `None` where it applies none.
+    pub fn applied_forces(&self) -> Option<Vectors<'_>> {
+        (!self.applied.is_empty()).then(|| Vectors(Column::Packed4s(&self.applied)))
     }
 
     /// Further quantities by name; their values are one a row.

@@ -59,6 +59,37 @@ fn assert_same_contacts(found: &Simulation, expected: &BTreeMap<(u32, i64), (f64
     }
 }
 
+/// Free flight under constant forces, far from each other: each particle's change of velocity is its force times the time
+/// over its mass.
+#[test]
+fn forces_of_a_program_stay_with_their_particles_and_inserted_ones_have_none() {
+    let still = |x: f64| Particle { velocity: Vector3::zero(), ..falling(x, 1.0) };
+    let mut simulation = start(setup(vec![still(0.0), still(1.0), still(2.0)], elastic()), 50.0);
+    simulation.set_applied_forces(&[1e-6, 2e-6, 3e-6].map(|along| vector(0.0, along, 0.0))).unwrap();
+    // To the left of all others: it gets the first row.
+    assert_eq!(simulation.insert(&[still(-3.0), still(7.0)]).unwrap(), [3, 4]);
+    simulation.remove(&[1]).unwrap();
+    let steps = 400;
+    simulation.advance(steps).unwrap();
+    let (particles, time) = (simulation.particles(), steps as f64 * simulation.time_step());
+    let speed = |force: f64| force * time / still(0.0).mass;
+    for (row, expected) in particles.rows_by_id().into_iter().zip([1e-6, 3e-6, 0.0, 0.0].map(speed)) {
+        let found = particles.velocities()[row];
+        // Two kicks a step, each of round-off.
+        let close = (found.y - expected).abs() <= 1e-13 * speed(3e-6);
+        assert!(close && found.x == 0.0 && found.z == 0.0, "id {}: {found:?}", particles.ids()[row]);
+    }
+    let applied = particles.applied_forces().unwrap();
+    let of = |id: u32| applied[particles.ids().iter().position(|&other| other == id).unwrap()].y;
+    assert_eq!([0, 2, 3, 4].map(of), [1e-6, 3e-6, 0.0, 0.0]);
+    let refused = simulation.set_applied_forces(&[Vector3::zero(); 3]).unwrap_err().to_string();
+    assert!(refused.contains("3 vectors for 4 particles; give one for each that is there now"), "{refused}");
+    simulation.set_applied_forces(&[vector(0.0, -1e-6, 0.0); 4]).unwrap();
+    simulation.advance(1).unwrap();
+    simulation.set_applied_forces(&[]).unwrap();
+    assert!(simulation.particles().applied_forces().is_none());
+}
+
 #[test]
 fn ids_count_on_and_are_never_given_twice() {
     let mut simulation = start(setup(vec![falling(0.0, 1.0), falling(1.0, 1.0)], elastic()), 50.0);

@@ -101,6 +101,26 @@ fn a_pressed_bed_with_all_kinds_of_memory_goes_on_from_any_step() {
 }
 
 #[test]
+fn a_bed_that_a_program_pushes_goes_on_from_any_step() {
+    let bed = pressed_bed();
+    let mut simulation = start(bed.clone(), 25.0);
+    simulation.advance(200).unwrap();
+    let count = simulation.particles().len();
+    // Another force for each, so that one that went to the wrong row would show.
+    let forces: Vec<_> =
+        (0..count).map(|id| vector(1e-7 * id as f64, -2e-7, 1e-8 * (id % 7) as f64)).collect();
+    simulation.set_applied_forces(&forces).unwrap();
+    let state = simulation.export_state();
+    let of_second = state.particles.id.iter().position(|&id| id == 2).unwrap();
+    assert_eq!(state.particles.applied_force[of_second], [2e-7, -2e-7, 2e-8]);
+    assert_goes_on_from_any_step("pushed", &bed, simulation, [5, 303, 88, 150]);
+    let mut damaged = state.clone();
+    damaged.particles.applied_force.pop();
+    let refused = import(&bed, &damaged).unwrap_err().to_string();
+    assert!(refused.contains("`applied_force` has 249 entries, expected 250"), "{refused}");
+}
+
+#[test]
 fn small_and_large_particles_that_fly_around_a_periodic_box_go_on_from_any_step() {
     let powder = wide_distribution(700, 7.0 * RADIUS, 0.7);
     assert_goes_on_from_any_step("wide", &powder, start(powder.clone(), 25.0), [2, 203, 150, 99]);

@@ -1,7 +1,7 @@
 //! Checkpoint files: a header for people, compressed contents, a checksum.
 //!
 //! ```text
-//! Pulvis checkpoint 5        the version of the format
+//! Pulvis checkpoint 6        the version of the format
 //! step = 1200                lines of the header, which `head` shows
 //!                            an empty line
 //! ....                       the contents, in LZ4 frames
@@ -21,8 +21,9 @@ use std::path::Path;
 use twox_hash::XxHash3_64;
 
 /// The version of the format that this program writes, and the only one that it reads. Version 3 came with walls that turn,
-/// inlets and outlets, programs of parameters, and several kinds of files; version 5 with groups of particles.
-pub const VERSION: u32 = 5;
+/// inlets and outlets, programs of parameters, and several kinds of files; version 5 with groups of particles; version 6 with
+/// forces that a program applies and walls that it leads.
+pub const VERSION: u32 = 6;
 
 const HEADING: &str = "Pulvis checkpoint ";
 
@@ -267,7 +268,7 @@ mod tests {
         assert_eq!(read_header(&before).unwrap(), "step = 2");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no temporary file stays");
         let text = String::from_utf8_lossy(&fs::read(&now).unwrap()).into_owned();
-        assert!(text.starts_with("Pulvis checkpoint 5\nstep = 3\n\n"));
+        assert!(text.starts_with("Pulvis checkpoint 6\nstep = 3\n\n"));
     }
 
     #[test]

@@ -20,15 +20,16 @@ __all__ = ["Particles"]
 _VECTORS = ("position", "velocity", "angular_velocity")
 
 #: Columns that follow from how particles were made, or from the others.
-_FIXED = ("id", "material", "radius", "mass", "force", "torque")
+_FIXED = ("id", "material", "radius", "mass", "force", "torque", "applied_force")
 
 
 class Particles:
     """The particles of a simulation.
 
     Attributes are *copies* in the order of the ids, which never changes: ``id``, ``material`` (an index), ``radius`` [m],
-    ``mass`` [kg], ``position`` [m], ``velocity`` [m/s], ``angular_velocity`` [rad/s], ``force`` [N], ``torque`` [N m], and
-    further columns of the scenario. :meth:`view` looks at the engine's own columns without a copy.
+    ``mass`` [kg], ``position`` [m], ``velocity`` [m/s], ``angular_velocity`` [rad/s], ``force`` [N], ``torque`` [N m],
+    ``applied_force`` [N], which :meth:`Simulation.apply` sets and ``force`` holds, and further columns of the scenario.
+    :meth:`view` looks at the engine's own columns without a copy.
 
     ``position``, ``velocity``, ``angular_velocity`` and the columns of the scenario can be set, all particles at once and in
     the order of the ids: ``particles.velocity = array``, ``particles["charge"] = array``. The forces are computed anew, and
@@ -75,7 +76,8 @@ class Particles:
                 raise InputError(text, key=name)
             self._session.set_vectors(name, array)
         elif name in _FIXED:
-            raise InputError(f"{name} cannot be set; {', '.join(_VECTORS)} and further columns can", key=name)
+            text = f"{name} cannot be set; {', '.join(_VECTORS)} and further columns can, and forces by `Simulation.apply`"
+            raise InputError(text, key=name)
         elif name in self.names:
             self._session.set_column(name, None, np.array(np.broadcast_to(array, (len(self),))))
         else:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._columns import Columns
+from ._forces import forces_on_all, forces_on_some
 from .errors import InputError, checked_threads
 from .particles import Particles
 from .scenarios import Scenario, Settings, StageEnd, built, source_of
@@ -105,7 +106,9 @@ class Simulation:
     def resume(cls, path: str | os.PathLike[str], *, threads: int | None = None) -> Simulation:
         """Goes on from a checkpoint of :meth:`save`, or of a run: a file, or the folder of the run, which is not changed.
 
-        Callbacks, recorded rows, and what the program has set of forces and walls are not part of it.
+        What the program has set of particles, forces and walls is part of it. Functions are not: callbacks, and one that gives
+        forces, have to be given again before the next step; until then the forces act on that it has given last. Recorded
+        rows are not part of it either.
         """
         simulation = cls.__new__(cls)
         simulation._take(_native.Session.resume(os.fspath(path), checked_threads(threads)))
@@ -243,7 +246,7 @@ class Simulation:
             raise InputError(f"every {steps} steps is never", key="steps")
         self._callbacks.append((steps, function))
 
-    def apply(self, forces: Forces) -> None:
+    def apply(self, forces: Forces, ids: ArrayLike | None = None) -> None:
         """Applies forces to the particles, on top of contacts and gravity, in all steps from now on.
 
         Parameters
@@ -251,12 +254,21 @@ class Simulation:
         forces : array, callable or None
             Vectors [N], one for each particle in the order of the ids, which stay as they are until others are applied; a
             function of the simulation that is asked before every step; or ``None`` to apply none any more.
+        ids : array, optional
+            The particles that the vectors are for, one each; all others keep what is applied to them.
+
+        Raises
+        ------
+        InputError
+            There is not one vector for each particle, or no particle with such an id.
 
         Notes
         -----
         The work of the forces is booked in the ledger as ``switched``. A function is asked before each step and gives the
         force that holds in it; one of positions thus lags behind by half a step. Steps are then taken one by one, which costs
-        some microseconds each beside what the function does. Particles that inlets bring in later have no force of an array.
+        some microseconds each beside what the function does. A force belongs to its particle, wherever that stands in the
+        arrays after others have come or gone: particles that an inlet brings in have none until some are applied anew, those
+        that an outlet takes away take theirs with them. ``particles.applied_force`` tells what is applied.
 
         Examples
         --------
@@ -264,24 +276,18 @@ class Simulation:
         ...     return 1e-6 * (np.array([0.1, 0, 0]) - simulation.particles.velocity)
         >>> simulation.apply(drag)  # doctest: +SKIP
         """
-        if forces is None or not callable(forces):
-            self._forces = None
-            self._apply(forces)
-        else:
+        if ids is not None:
+            if forces is None or callable(forces):
+                raise InputError("ids: they go with an array of forces", key="ids")
+            forces = forces_on_some(self.particles, forces, ids)
+        if forces is not None and callable(forces):
             self._forces = forces
+            return
+        self._apply(forces)
+        self._forces = None
 
     def _apply(self, forces: ArrayLike | None) -> None:
-        count = len(self.particles)
-        if forces is None:
-            self._session.set_vectors("applied_force", np.empty((0, 3)))
-            return
-        try:
-            array = np.ascontiguousarray(forces, dtype=np.float64)
-        except (TypeError, ValueError):
-            raise InputError("forces: expected an array of numbers [N]", key="forces") from None
-        if array.shape != (count, 3):
-            text = f"forces: found an array of shape {array.shape}, expected {(count, 3)}"
-            raise InputError(text, key="forces")
+        array = np.empty((0, 3)) if forces is None else forces_on_all(self.particles, forces)
         self._session.set_vectors("applied_force", array)
 
     # State
@@ -355,14 +361,13 @@ class Simulation:
     # Files
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes everything that the simulation is into a checkpoint, for :meth:`resume` and for ``start_from`` of scenarios.
-        The steps after it have the same bits as without the interruption.
+        """Writes everything that the simulation is into a checkpoint, for :meth:`resume` and for ``start_from`` of scenarios:
+        what the program has set of particles, forces and walls, too. The steps after it have the same bits as without it.
 
         Raises
         ------
         RunError
-            No step was taken yet; forces are applied or walls led by the program, which no checkpoint holds; or the file
-            cannot be written.
+            No step was taken yet, or the file cannot be written.
         """
         self._session.save(os.fspath(path))
 

@@ -16,7 +16,7 @@ __all__ = ["Wall"]
 class Wall:
     """A wall of a simulation. Attributes are read as they are now; motions can be set.
 
-    What a program sets holds until a stage of the scenario controls the wall. It is not in checkpoints.
+    What a program sets holds until a stage of the scenario controls the wall. Checkpoints hold it.
     """
 
     def __init__(self, session: _native.Session, index: int, name: str) -> None:

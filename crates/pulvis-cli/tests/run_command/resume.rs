@@ -224,9 +224,9 @@ fn checkpoints_that_cannot_be_used_are_refused_and_another_one_is_offered() {
     let mut flipped = sound.clone();
     flipped[sound.len() / 2] ^= 1;
     let newer =
-        String::from_utf8_lossy(&sound[..60]).replacen("checkpoint 5", "checkpoint 7", 1).into_bytes();
+        String::from_utf8_lossy(&sound[..60]).replacen("checkpoint 6", "checkpoint 7", 1).into_bytes();
     let older =
-        String::from_utf8_lossy(&sound[..60]).replacen("checkpoint 5", "checkpoint 1", 1).into_bytes();
+        String::from_utf8_lossy(&sound[..60]).replacen("checkpoint 6", "checkpoint 1", 1).into_bytes();
     let cases: [(&str, &[u8], &str); 5] = [
         ("flipped", &flipped, "is damaged or cut off: its checksum is another one"),
         ("cut", &sound[..sound.len() - 100], "is damaged or cut off: its checksum is another one"),
@@ -234,12 +234,12 @@ fn checkpoints_that_cannot_be_used_are_refused_and_another_one_is_offered() {
         (
             "newer",
             &newer,
-            "has version 7 of the format, and this program reads version 5; take a newer Pulvis",
+            "has version 7 of the format, and this program reads version 6; take a newer Pulvis",
         ),
         (
             "older",
             &older,
-            "has version 1 of the format, and this program reads version 5; take the Pulvis that its header names",
+            "has version 1 of the format, and this program reads version 6; take the Pulvis that its header names",
         ),
     ];
     for (name, bytes, reason) in cases {

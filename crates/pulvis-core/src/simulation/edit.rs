@@ -58,8 +58,8 @@ impl Simulation {
     }
 
     /// Applies forces to the particles [N], in all steps from now on; none where empty. Contacts are not computed again: a
-    /// program may apply other forces in every step. Inserted particles have none. A [state](Self::export_state) does not
-    /// hold them.
+    /// program may apply other forces in every step. Each particle keeps its force, wherever its row comes to stand; inserted
+    /// particles have none until others are applied. A [state](Self::export_state) holds them.
     ///
     /// # Errors
     /// As of [`set_positions`](Self::set_positions); or several ranks share the simulation.
@@ -111,7 +111,11 @@ impl Simulation {
     fn check_vectors(&self, name: &str, vectors: &[Vector3]) -> Result<(), SetupError> {
         let refuse = |problem: String| Err(SetupError::Column { name: name.to_owned(), problem });
         if vectors.len() != self.particles.len() {
-            return refuse(format!("{} vectors for {} particles", vectors.len(), self.particles.len()));
+            return refuse(format!(
+                "{} vectors for {} particles; give one for each that is there now, in the order of the ids",
+                vectors.len(),
+                self.particles.len()
+            ));
         }
         match vectors.iter().find(|vector| !vector.norm_squared().is_finite()) {
             Some(vector) => refuse(format!("a vector is {:?}, expected finite numbers", vector.to_array())),

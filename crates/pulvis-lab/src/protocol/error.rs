@@ -179,12 +179,6 @@ pub enum RunError {
         "the simulation has failed and stands in the middle of a step: it can be looked at, but not go on"
     )]
     Broken,
-    /// A session is asked for a checkpoint of what no checkpoint holds.
-    #[error(
-        "no checkpoint can be written: a program applies forces or leads walls, which checkpoints do not hold; \
-         write one before that, or start over and set them again"
-    )]
-    Led,
     /// A session is asked for a checkpoint before its first step.
     #[error("no checkpoint can be written before the first step: the scenario says all there is")]
     NotBegun,

@@ -5,6 +5,7 @@
 //! each of them without a word. What only one rank knows is told by the leader before every advance: how many steps it
 //! takes; and by the others in answer: whether somebody has asked them to stop.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -334,7 +335,8 @@ impl<'a> Follower<'a> {
             Some(rules) => rules,
             None => {
                 let (simulation, interactions) = (&mut self.simulation, &mut self.interactions);
-                switch(simulation, interactions, scenario, (plan, stage), self.walls_arrive)?;
+                let arrival = (self.walls_arrive, &BTreeSet::new());
+                switch(simulation, interactions, scenario, (plan, stage), arrival)?;
                 (self.walls_arrive, self.update) = (true, 0);
                 self.openings.enter_stage(&stage.name, &self.simulation);
                 StageWatch::new(scenario, stage, &self.simulation)

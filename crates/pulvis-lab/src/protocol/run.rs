@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use pulvis_core::{InstructionSet, Simulation};
+use pulvis_core::{InstructionSet, SetupError, Simulation};
 use pulvis_input::scenario::Scenario;
 use pulvis_io::checkpoint::{CheckpointError, peek_header, write_text};
 use pulvis_parallel::exchange::Exchange;
@@ -276,13 +276,18 @@ pub(super) fn set_machine(
     simulation: &mut Simulation,
     expected: usize,
     options: &RunOptions,
-) -> Result<(), pulvis_core::SetupError> {
+) -> Result<(), SetupError> {
     let particles = simulation.particles().len().max(expected);
     let alone = options.exchange.is_none();
     // Ranks that share a machine do not know how many they are: a thread each, unless the user knows better.
     let threads = options.threads.unwrap_or_else(|| if alone { sensible_threads(particles) } else { 1 });
     simulation.set_threads(threads)?;
     if let Some(exchange) = &options.exchange {
+        if exchange.ranks() > 1 && simulation.has_applied_forces() {
+            let problem = "the checkpoint holds forces that a program applies, whose work ranks do not tell each other; \
+                           run it on one rank";
+            return Err(SetupError::Column { name: "applied_force".to_owned(), problem: problem.to_owned() });
+        }
         simulation.set_exchange(Arc::clone(exchange));
     }
     if let Some(instructions) = options.instructions {

@@ -5,11 +5,11 @@ use pulvis_core::{Domain, Particle, Simulation, State};
 use pulvis_input::scenario::{Scenario, Stage, StartFrom, WallControl};
 use pulvis_input::{Document, InputErrors, Problem, Replacement};
 use pulvis_io::vtk::Frame;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::allow::limits;
 use super::cell::check_cell;
-use super::checkpoint::{Ancestor, Checkpoint, FindError, Found, RunRecord, find, of_run};
+use super::checkpoint::{Ancestor, Checkpoint, FindError, Found, LedWall, RunRecord, find, of_run};
 use super::damping::refuse_overdamped;
 use super::ending::Ending;
 use super::error::PrepareError;
@@ -42,7 +42,8 @@ pub(super) fn resumed(scenario: &Scenario, found: Found) -> Result<Resumed, Prep
         return Err(misfit("it has other stages".to_owned()));
     }
     let plans = resumed_plans(scenario, &record.time_steps, walls_after(scenario, &ancestors)?);
-    let walls = walls_in_stage(scenario, &ancestors, &scenario.stages[..=stage])?;
+    let mut walls = walls_in_stage(scenario, &ancestors, &scenario.stages[..=stage])?;
+    put_led(&record.led_walls, &mut walls).map_err(|problem| misfit(problem.to_owned()))?;
     let state: State = checkpoint.into_state().map_err(|problem| misfit(problem.to_owned()))?;
     let results = record.results.iter().zip(&scenario.stages).map(|(result, stage)| {
         let ending = Ending::from_number(result.ending);
@@ -83,13 +84,22 @@ fn resumed_plans(scenario: &Scenario, time_steps: &[f64], mut walls: Vec<Wall>) 
 fn walls_after(scenario: &Scenario, ancestors: &[Ancestor]) -> Result<Vec<Wall>, PrepareError> {
     let mut walls = drawn_walls(scenario);
     let mut ended = true;
-    for Ancestor { scenario, stage, stage_ended } in ancestors {
+    for Ancestor { scenario, stage, stage_ended, led_walls } in ancestors {
         let ancestor = Scenario::from_str("the scenario of an earlier run", scenario)?;
         let begun = &ancestor.stages[..(*stage as usize + 1).min(ancestor.stages.len())];
         enter_stages(&mut walls, begun, ended);
+        put_led(led_walls, &mut walls).map_err(|problem| PrepareError::Misfit {
+            file: PathBuf::from("the checkpoint of an earlier run"),
+            problem: problem.to_owned(),
+        })?;
         ended = *stage_ended;
     }
     Ok(walls)
+}
+
+/// Walls that a program had in hand are as it has left them.
+fn put_led(led: &[LedWall], walls: &mut [Wall]) -> Result<(), &'static str> {
+    led.iter().try_for_each(|led| led.put_into(walls))
 }
 
 /// The walls of a scenario in the last of these stages of a run.
@@ -108,9 +118,10 @@ pub(crate) fn frame_of_checkpoint(file: &Path) -> Result<(Scenario, Domain, f64,
     let found = find(file)?.ok_or_else(|| FindError::None(file.to_owned()))?;
     let checkpoint = found.checkpoint;
     let (scenario, stage) = parent(&checkpoint)?;
-    let walls = walls_in_stage(&scenario, &checkpoint.ancestors, &scenario.stages[..=stage])?;
+    let mut walls = walls_in_stage(&scenario, &checkpoint.ancestors, &scenario.stages[..=stage])?;
     let models = models_after(&scenario, &scenario.stages[stage], checkpoint.run.update as usize);
     let misfit = |problem: String| PrepareError::Misfit { file: file.to_owned(), problem };
+    put_led(&checkpoint.run.led_walls, &mut walls).map_err(|problem| misfit(problem.to_owned()))?;
     let state: State = checkpoint.into_state().map_err(|problem| misfit(problem.to_owned()))?;
     let simulation =
         Simulation::import_state(models, walls, &state).map_err(|error| misfit(error.to_string()))?;
@@ -215,8 +226,17 @@ pub(super) fn branch(scenario: &Scenario, start: &StartFrom) -> Result<Prepared,
     let mut ancestors = checkpoint.ancestors.clone();
     let stage_ended = checkpoint.run.watch.is_none();
     let openings = Some(checkpoint.run.openings.clone());
-    let walls = walls_in_stage(scenario, &ancestors, &parent.stages[..=stage])?;
-    ancestors.push(Ancestor { scenario: checkpoint.scenario.clone(), stage: stage as u32, stage_ended });
+    let mut walls = walls_in_stage(scenario, &ancestors, &parent.stages[..=stage])?;
+    let led_walls = checkpoint.run.led_walls.clone();
+    put_led(&led_walls, &mut walls).map_err(|problem| {
+        refused(Problem::rule(problem, "a checkpoint of this program"), "name another checkpoint")
+    })?;
+    ancestors.push(Ancestor {
+        scenario: checkpoint.scenario.clone(),
+        stage: stage as u32,
+        stage_ended,
+        led_walls,
+    });
     let models = models_after(&parent, &parent.stages[stage], checkpoint.run.update as usize);
     let unfit = |problem: String| {
         refused(Problem::rule(problem, "a checkpoint of the same system"), "name another checkpoint")

@@ -1,5 +1,7 @@
 //! From one stage to the next.
 
+use std::collections::BTreeSet;
+
 use pulvis_core::walls::WallMotion;
 use pulvis_core::{Interactions, Simulation};
 use pulvis_input::scenario::{Scenario, Stage, WallControl};
@@ -9,13 +11,14 @@ use super::groups::switch_groups;
 use super::setup::StagePlan;
 
 /// Switches a simulation, which has these `interactions`, to what holds during a stage. `walls_arrive`: motions of walls
-/// with an end have come to it.
+/// with an end have come to it, but for those of the walls `led` by a program, which stages leave alone that do not control
+/// them.
 pub(super) fn switch(
     simulation: &mut Simulation,
     interactions: &mut Interactions,
     scenario: &Scenario,
     (plan, stage): (&StagePlan, &Stage),
-    walls_arrive: bool,
+    (walls_arrive, led): (bool, &BTreeSet<usize>),
 ) -> Result<(), RunError> {
     if let Some(region) = &stage.remove {
         simulation.remove_within(region);
@@ -34,7 +37,7 @@ pub(super) fn switch(
     // A wall that was on its way by a function of time has arrived.
     for place in (0..simulation.walls().len()).filter(|_| walls_arrive) {
         let changed = plan.wall_changes.iter().any(|(wall, _)| *wall == place);
-        if !changed && simulation.walls()[place].motion.law().duration().is_some() {
+        if !changed && !led.contains(&place) && simulation.walls()[place].motion.law().duration().is_some() {
             simulation.set_wall_motion(place, WallMotion::Fixed).map_err(failed)?;
         }
     }

@@ -111,6 +111,9 @@ impl ParticleState {
         check_vectors("angular_velocity", &self.angular_velocity, rows)?;
         check_vectors("force", &self.force, rows)?;
         check_vectors("torque", &self.torque, rows)?;
+        if !self.applied_force.is_empty() {
+            check_vectors("applied_force", &self.applied_force, rows)?;
+        }
         for column in &self.columns {
             check_column(&column.name, &column.values, rows, FINITE)?;
         }

@@ -102,8 +102,7 @@ fn particles_of(particles: &Particles) -> ParticleState {
         // Written at the beginning of a step, before they are read.
         velocity_predicted: _,
         angular_velocity_predicted: _,
-        // Given again by the program that applies them; what the next step begins with is in the forces.
-        applied: _,
+        applied,
         columns,
         next_id: _,
         // Follows from the groups.
@@ -122,6 +121,7 @@ fn particles_of(particles: &Particles) -> ParticleState {
         angular_velocity: vectors(angular_velocity),
         force: of_rows.iter().map(|ForceTorque { force, .. }| force.vector.to_array()).collect(),
         torque: of_rows.iter().map(|ForceTorque { torque, .. }| torque.vector.to_array()).collect(),
+        applied_force: vectors(applied),
         columns: columns.clone(),
     }
 }

@@ -152,6 +152,8 @@ fn particles_of(state: &ParticleState, next_id: u32) -> Particles {
     let mut particles = Particles::new(&rows);
     particles.id.clone_from(&state.id);
     particles.columns.clone_from(&state.columns);
+    let applied = state.applied_force.iter().map(|&force| Packed4::new(Vector3::from(force), 0.0));
+    particles.applied = applied.collect();
     particles.next_id = next_id;
     particles
 }

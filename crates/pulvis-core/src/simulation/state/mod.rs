@@ -90,6 +90,8 @@ pub struct ParticleState {
     pub force: Vec<[f64; 3]>,
     /// Torques [N m].
     pub torque: Vec<[f64; 3]>,
+    /// Forces that a program applies [N], which `force` holds already; empty where there are none.
+    pub applied_force: Vec<[f64; 3]>,
     /// Further quantities by name.
     pub columns: Vec<NamedColumn>,
 }

@@ -139,7 +139,7 @@ mod tests {
         for (name, step) in
             [(&*early, 100), (&*late, 900), (LATEST, 700), (PREVIOUS, 100), ("notes.pulvis", 999)]
         {
-            fs::write(folder.path().join(name), format!("Pulvis checkpoint 5\nstep = {step}\n\n")).unwrap();
+            fs::write(folder.path().join(name), format!("Pulvis checkpoint 6\nstep = {step}\n\n")).unwrap();
         }
         fs::write(folder.path().join(&cut), "").unwrap();
         let found = checkpoint_files(folder.path());

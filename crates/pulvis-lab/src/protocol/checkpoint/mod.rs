@@ -4,6 +4,7 @@ mod cell;
 mod find;
 mod groups;
 mod keeper;
+mod motion;
 mod planes;
 mod state;
 
@@ -22,6 +23,7 @@ use super::steady::Steady;
 pub use find::{FindError, checkpoint_files, has_ended};
 pub(super) use find::{Found, find, of_run};
 pub(super) use keeper::{Keeper, Purpose};
+pub(super) use motion::LedWall;
 use state::StateRecord;
 
 /// Where a run is that has come to its end.
@@ -66,6 +68,8 @@ pub(super) struct Ancestor {
     pub(super) stage: u32,
     /// Whether that stage had ended.
     pub(super) stage_ended: bool,
+    /// The walls that a program had in hand.
+    pub(super) led_walls: Vec<LedWall>,
 }
 
 /// Where a run is in its protocol, and what it has written.
@@ -88,6 +92,8 @@ pub(super) struct RunRecord {
     pub(super) reference: Option<[Option<f64>; 3]>,
     /// What inlets and outlets have seen.
     pub(super) openings: OpeningsRecord,
+    /// The walls that a program has in hand.
+    pub(super) led_walls: Vec<LedWall>,
     /// Length and hash of the time series.
     pub(super) series: (u64, u64),
     /// How far the files of particles and contacts have come, block by block.

@@ -1,4 +1,4 @@
-//! The state of a simulation as version 5 of the format has it.
+//! The state of a simulation as version 6 of the format has it.
 //!
 //! [`State`] may change with the engine; what stands in files may not. The conversions list every field, so that the compiler
 //! asks about each new one: another version of the format is due then.
@@ -69,6 +69,8 @@ pub(super) struct ParticleColumns {
     force: Vec<[f64; 3]>,
     #[serde(with = "planes")]
     torque: Vec<[f64; 3]>,
+    #[serde(with = "planes")]
+    applied_force: Vec<[f64; 3]>,
     columns: Vec<Column>,
 }
 
@@ -248,7 +250,8 @@ macro_rules! same_fields {
 }
 
 same_fields!(ParticleState, ParticleColumns:
-    id, material, radius, mass, position, velocity, angular_velocity, force, torque;
+    id, material, radius, mass, position, velocity, angular_velocity, force, torque,
+    applied_force;
     columns with
         |NamedColumn { name, unit, values }| Column { first: name, second: unit, values },
         |Column { first, second, values }| NamedColumn { name: first, unit: second, values }

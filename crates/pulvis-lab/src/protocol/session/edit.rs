@@ -95,7 +95,7 @@ impl Session {
         self.whole()?;
         let motion = motion_of(motion, parameters)?;
         self.simulation.set_wall_motion(wall, motion)?;
-        self.leads_walls = true;
+        self.led_walls.insert(wall);
         Ok(())
     }
 
@@ -106,7 +106,7 @@ impl Session {
     pub fn set_wall_present(&mut self, wall: usize, present: bool) -> Result<(), EditError> {
         self.whole()?;
         self.simulation.set_wall_present(wall, present);
-        self.leads_walls = true;
+        self.led_walls.insert(wall);
         Ok(())
     }
 }

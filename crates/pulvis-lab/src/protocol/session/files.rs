@@ -7,7 +7,7 @@ use pulvis_input::Scenario;
 use pulvis_io::frames::{self, FrameWriter, Instant, Precision, Series, Units};
 
 use super::Session;
-use crate::protocol::checkpoint::{Checkpoint, FindError, Label, RunRecord, find};
+use crate::protocol::checkpoint::{Checkpoint, FindError, Label, LedWall, RunRecord, find};
 use crate::protocol::error::{PrepareError, RunError};
 use crate::protocol::formats::units;
 use crate::protocol::frame::{Selection, frame_of, selected_frame};
@@ -33,7 +33,8 @@ struct Output {
 }
 
 impl Session {
-    /// Goes on from a checkpoint: of a session, or of a run. What a program has set of forces and walls is not in it.
+    /// Goes on from a checkpoint: of a session, or of a run. Forces that a program has applied act on, and walls that it has
+    /// taken in hand move as it has said.
     ///
     /// # Errors
     /// There is no checkpoint at the path, or it cannot be used.
@@ -48,6 +49,7 @@ impl Session {
         let mut measure = Measure::new(&scenario, &simulation);
         measure.resume(record.reference);
         let start_lengths = record.watch.as_ref().map_or([None; 3], |watch| watch.start_lengths);
+        let led_walls = record.led_walls.iter().map(LedWall::place).collect();
         let mut session = Self {
             measure,
             openings: Openings::new(&scenario, Some(&record.openings)),
@@ -62,7 +64,7 @@ impl Session {
             warnings: Vec::new(),
             broken: false,
             ancestors,
-            leads_walls: false,
+            led_walls,
             outputs: Outputs::default(),
             simulation,
             scenario,
@@ -75,7 +77,7 @@ impl Session {
     /// scenarios. `version` is that of the program.
     ///
     /// # Errors
-    /// The file cannot be written; the session has failed; or a program applies forces or leads walls, which no file holds.
+    /// The file cannot be written, no step was taken yet, or the session has failed.
     pub fn checkpoint(&self, path: &Path, version: &str) -> Result<(), RunError> {
         if self.broken {
             return Err(RunError::Broken);
@@ -83,9 +85,8 @@ impl Session {
         if self.watch.is_none() && self.results.is_empty() {
             return Err(RunError::NotBegun);
         }
-        if self.leads_walls || self.simulation.has_applied_forces() {
-            return Err(RunError::Led);
-        }
+        let walls = self.simulation.walls();
+        let led = |&place: &usize| Some(LedWall::of(place, walls.get(place)?));
         let run = RunRecord {
             results: self.results.iter().map(StageResult::record).collect(),
             watch: self.watch.clone(),
@@ -96,6 +97,7 @@ impl Session {
             checkpoints_due: 0,
             reference: self.measure.reference(),
             openings: self.openings.record(),
+            led_walls: self.led_walls.iter().filter_map(led).collect(),
             // A session has no files of its own.
             series: (0, 0),
             snapshots: Vec::new(),

@@ -3,6 +3,8 @@
 mod edit;
 mod files;
 
+use std::collections::BTreeSet;
+
 use pulvis_core::{InstructionSet, Interactions, Simulation};
 use pulvis_input::scenario::Scenario;
 
@@ -46,8 +48,8 @@ pub struct Session {
     broken: bool,
     /// The runs that this one has branched from.
     ancestors: Vec<Ancestor>,
-    /// Whether the program has moved a wall: no checkpoint holds that.
-    leads_walls: bool,
+    /// The walls that the program has taken in hand, which checkpoints tell beside the scenario.
+    led_walls: BTreeSet<usize>,
     outputs: Outputs,
 }
 
@@ -83,7 +85,7 @@ impl Session {
             warnings,
             broken: false,
             ancestors: origin.ancestors,
-            leads_walls: false,
+            led_walls: BTreeSet::new(),
             outputs: Outputs::default(),
             simulation,
             scenario,
@@ -127,7 +129,10 @@ impl Session {
         if self.watch.is_none() {
             let (plan, stage) = (&self.plans[number], &self.scenario.stages[number]);
             let (models, scenario) = (&mut self.interactions, &self.scenario);
-            switch(&mut self.simulation, models, scenario, (plan, stage), self.walls_arrive)?;
+            let arrival = (self.walls_arrive, &self.led_walls);
+            switch(&mut self.simulation, models, scenario, (plan, stage), arrival)?;
+            // What a stage controls is in the hands of the scenario again.
+            self.led_walls.retain(|place| plan.wall_changes.iter().all(|(wall, _)| wall != place));
             self.walls_arrive = true;
             self.update = 0;
             self.openings.enter_stage(&stage.name, &self.simulation);

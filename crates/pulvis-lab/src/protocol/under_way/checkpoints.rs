@@ -155,6 +155,8 @@ impl<'a> Run<'a> {
             checkpoints_due: checkpoints_due.as_ref().map_or(0, Due::count),
             reference: measure.reference(),
             openings: openings.record(),
+            // Those of a run that this one has branched from are among its ancestors.
+            led_walls: Vec::new(),
             series: (series.bytes, series.hash),
             snapshots: snapshots.record()?,
             files: output.names().to_vec(),

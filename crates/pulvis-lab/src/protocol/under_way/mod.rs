@@ -3,6 +3,7 @@
 mod checkpoints;
 mod last_files;
 
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -277,7 +278,8 @@ impl<'a> Run<'a> {
     fn switch_to(&mut self, number: usize) -> Result<(), RunError> {
         let (plan, stage) = (&self.plans[number], &self.scenario.stages[number]);
         let scenario = self.scenario;
-        switch(&mut self.simulation, &mut self.interactions, scenario, (plan, stage), self.walls_arrive)?;
+        let arrival = (self.walls_arrive, &BTreeSet::new());
+        switch(&mut self.simulation, &mut self.interactions, scenario, (plan, stage), arrival)?;
         self.walls_arrive = true;
         self.update = 0;
         Ok(())
