@@ -42,8 +42,10 @@ const browser = await chromium.launch({
   args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
 });
 
-async function open(url, options = {}) {
+/** Opens a page; `before` runs in it before its own scripts. */
+async function open(url, options = {}, before = null) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+  if (before) await context.addInitScript(before);
   const page = await context.newPage();
   page.errors = [];
   page.on("console", (message) => message.type() === "error" && page.errors.push(message.text()));
@@ -339,20 +341,25 @@ async function exported(folder) {
   await page.locator(".player input").fill(await page.locator(".player input").getAttribute("max"));
   await settled(page);
   // Those at the top may be flying.
-  let told = "";
-  for (let place = 0; place < 40 && !told.includes("normal force"); place += 1) {
+  let contacts = "";
+  for (let place = 0; place < 40 && !contacts.includes("normal force"); place += 1) {
     await page.mouse.click(box.x + box.width * (0.3 + 0.05 * (place % 8)), box.y + box.height * (0.5 + 0.06 * Math.floor(place / 8)));
     await settled(page);
-    told = (await page.locator(".picked").textContent()) ?? "";
+    // What was told last stays in a box that is hidden.
+    contacts = (await page.locator(".picked").isVisible()) ? ((await page.locator(".picked").textContent()) ?? "") : "";
   }
-  check("and its contacts", /normal force/.test(told) && / N/.test(told), told);
+  check("and its contacts", /normal force/.test(contacts) && / N/.test(contacts), contacts);
   await page.locator(".picked button.link").nth(1).click();
   await settled(page);
   const other = (await page.locator(".picked").textContent()) ?? "";
-  check("from which one goes on to the other particle", other !== told && /particle \d+/.test(other), other);
+  check("from which one goes on to the other particle", other !== contacts && /particle \d+/.test(other), other);
   await video(page);
   await picture(page, "exported");
   await close(page, "exported");
+  const old = await open(pathToFileURL(file).href, {}, () => delete globalThis.VideoEncoder);
+  const told = await old.getByRole("region", { name: "Video" }).textContent();
+  check("a browser that cannot encode videos is told what to do", (await old.getByRole("button", { name: "record video.webm" }).isDisabled()) && told.includes("pulvis render RUN"), told);
+  await close(old, "without an encoder");
 }
 
 /** A film of all frames, and one that is stopped: length, size and number of different pictures, as a player sees them. */

@@ -20,7 +20,7 @@ const WAITING = 2;
 /** Seconds between frames from which players can begin. */
 const BETWEEN_KEYS = 2;
 
-const CANNOT = "This browser cannot encode videos here: that takes WebCodecs (Chromium 94, Firefox 130, Safari 16.4 or newer) and a page of this machine, through a tunnel if need be. `pulvis render` writes pictures, of which other programs make films.";
+const CANNOT = "This browser cannot encode videos here: that takes WebCodecs (Chromium 94, Firefox 130, Safari 16.4 or newer) and a page of this machine, through a tunnel if need be. `pulvis render RUN --frame all --output film.apng` makes a film without a browser.";
 
 export class Video {
   constructor(view) {

@@ -27,7 +27,8 @@ pub struct ClosedForm {
 /// attraction, of elastic contacts with a constant dashpot and no attraction, and of those that [`head_on`] knows. Head
 /// on only.
 pub fn closed_form(case: &CollisionCase) -> Option<ClosedForm> {
-    if case.incidence.is_some() {
+    // A bond may hold what would rebound.
+    if case.incidence.is_some() || case.contact.laws.bond.is_some() {
         return None;
     }
     let problem = Problem::new(case);
@@ -90,5 +91,27 @@ fn dashpot(problem: &Problem<'_>) -> Option<f64> {
         Viscosity::None(_) => Some(own),
         Viscosity::Constant(_) | Viscosity::Restitution(_) => Some(own + largest),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use pulvis_input::Document;
+    use pulvis_input::collision::CollisionScenario;
+
+    #[test]
+    fn a_contact_that_a_bond_holds_has_no_closed_form() {
+        let restitution = |bond: &str| {
+            let text = format!(
+                "[collision]\nbodies = \"pair\"\nradius = \"1 mm\"\ndensity = \"2000 kg/m^3\"\nvelocity = \"0.01 m/s\"\n[contact.normal]\nlaw = \"hertz\"\neffective_modulus = \"1e8 Pa\"\n{bond}"
+            );
+            let document = Document::from_str("bond.toml", &text).unwrap();
+            let case = CollisionScenario::from_document(&document).unwrap().cases.remove(0);
+            closed_form(&case).map(|theory| theory.restitution)
+        };
+        let bond = "[contact.bond]\nlaw = \"elastic-brittle\"\nform = \"first-touch\"\nnormal_stiffness = \"1e5 N/m\"\nshear_stiffness = \"1e5 N/m\"\nbending_stiffness = \"1e-4 J\"\ntorsion_stiffness = \"5e-5 J\"\ntensile_strength = \"1e9 N\"\nshear_strength = \"1e9 N\"\n";
+        assert_eq!((restitution(""), restitution(bond)), (Some(1.0), None));
     }
 }
