@@ -8,6 +8,7 @@ mod background;
 mod cuboid;
 mod deformation;
 mod domain;
+mod electrostatics;
 pub mod motion;
 mod region;
 mod shape;
@@ -17,6 +18,7 @@ pub use background::{Background, Drag};
 pub use cuboid::Cuboid;
 pub use deformation::UpperTriangular;
 pub use domain::{Domain, Images};
+pub use electrostatics::Electrostatics;
 pub use motion::{CellContent, CellControl, CellMotion, GroupMotion, WallMotion};
 pub use region::Region;
 pub use shape::{

@@ -20,6 +20,8 @@ pub(crate) struct Columns<'a> {
     mass: &'a [f64],
     /// Forces that a program applies; empty where there are none.
     applied: &'a [Packed4],
+    /// Forces of all other charges, with energies beside them; empty where there are none.
+    electrostatic: &'a [Packed4],
 }
 
 impl<'a> Columns<'a> {
@@ -34,6 +36,7 @@ impl<'a> Columns<'a> {
             forces_and_torques: Shared::new(&mut particles.forces_and_torques),
             mass: &particles.mass,
             applied: &particles.applied,
+            electrostatic: &particles.electrostatic,
         }
     }
 
@@ -115,6 +118,7 @@ impl<const FINISH: bool, const BEGIN: bool> Kernel for HalfKicks<'_, FINISH, BEG
         let forces_and_torques = &mut forces_and_torques[..rows.len()];
         let mass = &columns.mass[rows.clone()];
         let applied = columns.applied.get(rows.clone());
+        let electrostatic = columns.electrostatic.get(rows.clone());
         // SAFETY: as `new` demands.
         let (position, velocity, angular_velocity, velocity_predicted, angular_velocity_predicted) = unsafe {
             (
@@ -141,6 +145,9 @@ impl<const FINISH: bool, const BEGIN: bool> Kernel for HalfKicks<'_, FINISH, BEG
                 if let Some(applied) = applied {
                     kicked.applied_work += half * applied[row].vector.dot(velocity[row].vector);
                     push = push.plus(R::Simd4::load(&applied[row]));
+                }
+                if let Some(electrostatic) = electrostatic {
+                    push = push.plus(R::Simd4::load(&Packed4::new(electrostatic[row].vector, 0.0)));
                 }
                 if background.has_drag() {
                     let (velocity, angular_velocity) =

@@ -8,6 +8,7 @@ mod chunk_tree;
 mod columns;
 mod contacts;
 mod counting_sort;
+mod electrostatics;
 mod integrator;
 mod ledger;
 mod neighbours;
@@ -26,12 +27,13 @@ pub use contacts::{
     Binding, BondCount, BrokenBond, ContactPartner, ContactRecords, ContactTotals, ContactView, Interactions,
     MemoryColumn, MemoryError,
 };
+pub use electrostatics::shortest_motion_of_charges;
 pub use ledger::Ledger;
 pub use particles::{MaterialIndex, Particle, ParticleId, Particles, Vectors};
 pub use phases::Phases;
 pub use pulvis_boundary::{
-    Background, CellContent, CellControl, CellMotion, Domain, GroupMotion, Region, TemperatureProgram,
-    UpperTriangular,
+    Background, CellContent, CellControl, CellMotion, Domain, Electrostatics, GroupMotion, Region,
+    TemperatureProgram, UpperTriangular,
 };
 pub use pulvis_math::InstructionSet;
 pub use simulation::{

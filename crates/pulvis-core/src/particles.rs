@@ -62,6 +62,9 @@ pub struct Particles {
     /// Forces that a program applies [N], which contacts and background come on top of; empty where there are none. Particles
     /// that are inserted later have zero.
     pub(crate) applied: Vec<Packed4>,
+    /// Force of all other charges [N] and the potential energy with them [J], of the last pass in the order of the rows; empty
+    /// where charges do not act over all distances.
+    pub(crate) electrostatic: Vec<Packed4>,
     /// Quantities that the engine does not use.
     pub(crate) columns: Vec<NamedColumn>,
     /// The id of the next particle: no id is used twice.

@@ -49,6 +49,8 @@ pub enum MotionKind {
     Drag,
     /// The lightest particle whose rotation the background's drag slows down.
     RotationalDrag,
+    /// Two charges that touch and act over all distances.
+    Charges,
 }
 
 /// The shortest motion of the system: of contacts (see [`shortest_contact`]), of walls that follow a pressure, and of

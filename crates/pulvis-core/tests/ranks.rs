@@ -16,7 +16,8 @@ use pulvis_contact::catalogue::Values;
 use pulvis_contact::noncontact::JumpIn;
 use pulvis_core::walls::{FaceArea, Mesh, Servo, TriangleMesh, Velocity, Wall, WallMotion};
 use pulvis_core::{
-    Alarm, Background, CellControl, CellMotion, GroupMotion, Limits, Region, Setup, Simulation, StepError,
+    Alarm, Background, CellControl, CellMotion, Electrostatics, GroupMotion, Limits, NamedColumn, Region,
+    Setup, Simulation, StepError,
 };
 use pulvis_math::Vector3;
 use pulvis_parallel::exchange::ThreadRank;
@@ -110,6 +111,24 @@ fn particles_that_fly_around_a_periodic_box_through_all_ranks_have_the_same_bits
     });
     let way = 40.0 * powder.time();
     assert!(way > 2.0 * 7.0 * RADIUS, "they flew {way} m only");
+}
+
+#[test]
+fn charges_that_act_over_all_distances_have_the_same_bits_on_any_number_of_ranks() {
+    let cloud = || {
+        let mut cloud = implosion(700, 25.0 * RADIUS, 9, viscous_luding());
+        cloud.interactions.set_electrostatics(Some(Electrostatics::default()));
+        cloud.time_step = contact_time(&cloud) / 25.0;
+        let values = (0..700).map(|index| if index % 2 == 0 { 3e-10 } else { -1e-10 }).collect();
+        let charges = NamedColumn { name: "charge".to_owned(), unit: "C".to_owned(), values };
+        Simulation::with_columns(cloud, vec![charges]).unwrap()
+    };
+    let cloud = assert_the_same_bits_on_any_number_of_ranks("charges", cloud, |cloud| {
+        for steps in [500, 1, 2, 300] {
+            cloud.advance(steps).unwrap();
+        }
+    });
+    assert!(cloud.ledger().electrostatic != 0.0 && cloud.ledger().dissipated_sliding > 0.0);
 }
 
 #[test]

@@ -9,8 +9,8 @@ use pulvis_contact::NonContact;
 use pulvis_contact::noncontact::JumpIn;
 use pulvis_core::walls::{Cosine, Extent, FaceArea, PressureRamp, Servo, Velocity, WallMotion};
 use pulvis_core::{
-    Background, GroupMotion, MemoryError, NamedColumn, Region, Setup, SetupError, Simulation, State,
-    StateError,
+    Background, Electrostatics, GroupMotion, MemoryError, NamedColumn, Region, Setup, SetupError, Simulation,
+    State, StateError,
 };
 
 /// Every bit of a state, negative zeros and all.
@@ -124,6 +124,18 @@ fn a_bed_that_a_program_pushes_goes_on_from_any_step() {
 fn small_and_large_particles_that_fly_around_a_periodic_box_go_on_from_any_step() {
     let powder = wide_distribution(700, 7.0 * RADIUS, 0.7);
     assert_goes_on_from_any_step("wide", &powder, start(powder.clone(), 25.0), [2, 203, 150, 99]);
+}
+
+#[test]
+fn charges_that_act_over_all_distances_go_on_from_any_step() {
+    let mut cloud = implosion(300, 20.0 * RADIUS, 9, viscous_luding());
+    cloud.interactions.set_electrostatics(Some(Electrostatics::default()));
+    cloud.time_step = contact_time(&cloud) / 40.0;
+    let values = (0..300).map(|index| if index % 2 == 0 { 3e-10 } else { -1e-10 }).collect();
+    let charges = NamedColumn { name: "charge".to_owned(), unit: "C".to_owned(), values };
+    let start = Simulation::with_columns(cloud.clone(), vec![charges]).unwrap();
+    assert!(start.ledger().electrostatic != 0.0);
+    assert_goes_on_from_any_step("charges", &cloud, start, [2, 203, 150, 99]);
 }
 
 #[test]

@@ -272,6 +272,16 @@ fn columns_of_particles_come_in_one_order_with_their_dimensions() {
 }
 
 #[test]
+fn charges_act_over_all_distances_where_the_table_is_there() {
+    let medium = good("electrostatics.toml").electrostatics.unwrap();
+    assert_eq!(medium.relative_permittivity, 2.2);
+    assert_eq!(good("removal.toml").electrostatics, None);
+    let text = good("electrostatics.toml").source.text.replace("relative_permittivity = 2.2", "");
+    let vacuum = Scenario::from_str("vacuum.toml", &text).unwrap().electrostatics.unwrap();
+    assert_eq!(vacuum.relative_permittivity, 1.0);
+}
+
+#[test]
 fn stages_take_particles_away_in_any_region() {
     let stages = good("removal.toml").stages;
     assert_eq!(stages[0].remove, None);

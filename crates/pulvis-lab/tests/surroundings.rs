@@ -115,6 +115,61 @@ fn a_run_writes_its_temperature_and_the_energies_of_charges_and_heat() {
     assert_eq!(again.temperature, scenario(&text).temperature);
 }
 
+/// Two opposite charges that fall from rest at 4 mm to 2 mm.
+fn falling_charges(time: &str) -> String {
+    let grain = |x: &str, charge: &str| {
+        format!(
+            "[[particles]]\nmaterial = \"grain\"\nradius = {{ distribution = \"fixed\", value = \"0.4 mm\" }}\n\
+             arrangement = {{ kind = \"list\", positions = [[\"{x}\", \"0 mm\", \"0 mm\"]] }}\n\
+             columns = {{ charge = \"{charge}\" }}\n"
+        )
+    };
+    let grains = [grain("-2 mm", "100 pC"), grain("2 mm", "-100 pC")].concat();
+    format!(
+        "[materials.grain]\ndensity = \"2000 kg/m^3\"\n\
+         [contacts.grain-grain.normal]\nlaw = \"linear\"\nk = \"100 N/m\"\n\
+         [electrostatics]\nrelative_permittivity = 2\n{grains}{time}\
+         [[stages]]\nname = \"fall\"\nuntil = {{ time = \"{} s\" }}\n[output]\nplots = false\n",
+        time_of_fall()
+    )
+}
+
+/// √(d³ μ/(2 K)) (π/4 + 1/2), K = q²/(4 π ε_0 ε_r) [s].
+fn time_of_fall() -> f64 {
+    let mass: f64 = 4.0 / 3.0 * std::f64::consts::PI * 2000.0 * 0.4e-3_f64.powi(3);
+    let strength = 8.987_551_792_3e9 / 2.0 * 1e-10 * 1e-10;
+    (4e-3_f64.powi(3) * 0.5 * mass / (2.0 * strength)).sqrt() * (std::f64::consts::FRAC_PI_4 + 0.5)
+}
+
+#[test]
+fn charges_over_all_distances_fall_in_their_time_and_write_their_energy() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = falling_charges("");
+    let summary = run(&scenario(&text), folder.path());
+    assert!(summary.energy_error_max < 1e-4, "{}", summary.energy_error_max);
+    let energies = Series::read(folder.path()).column("electrostatic");
+    let at_start = -8.987_551_792_3e9 / 2.0 * 1e-20 / 4e-3;
+    assert!((energies[0] / at_start - 1.0).abs() < 1e-12, "{energies:?}");
+    // Half the distance: twice the energy. The last step ends up to a step late, within 1e-3 of the time.
+    assert!((energies.last().unwrap() / (2.0 * at_start) - 1.0).abs() < 5e-3, "{energies:?}");
+    let record = std::fs::read_to_string(folder.path().join("run.toml")).unwrap();
+    assert_eq!(scenario(&record).electrostatics, scenario(&text).electrostatics);
+}
+
+#[test]
+fn a_step_that_does_not_resolve_two_charges_that_touch_is_refused() {
+    // At touch ω² = 2 K/(d³ μ), K = 1e-6² C²/(4 π ε_0 ε_r): 8e6/s, far above the 2e4/s of the contact.
+    let strong = falling_charges("[time]\nstep = \"2 us\"\n").replace("100 pC", "1 uC");
+    let text = preflight(&scenario(&strong)).unwrap_err().to_string();
+    assert!(text.contains("two charges that touch") && text.contains("smaller charges"), "{text}");
+    let automatic = falling_charges("").replace("100 pC", "1 uC");
+    let forecast = preflight(&scenario(&automatic)).unwrap();
+    let slope = 2.0 * 8.987_551_792_3e9 / 2.0 * 1e-12 / 0.8e-3_f64.powi(3);
+    let mass: f64 = 4.0 / 3.0 * std::f64::consts::PI * 2000.0 * 0.4e-3_f64.powi(3);
+    let expected = std::f64::consts::PI * (0.5 * mass / slope).sqrt() / 50.0;
+    assert!((forecast.stages[0].time_step / expected - 1.0).abs() < 1e-12, "{:?}", forecast.stages[0]);
+}
+
 /// One grain each of two materials; `columns` are those of both.
 fn two_grains(contact: &str, columns: [&str; 2]) -> String {
     let group = |name: &str, x: &str, columns: &str| {

@@ -26,7 +26,7 @@ pub struct Coulomb {
 }
 
 /// 1/(4 π ε_0), CODATA 2018 [N m²/C²].
-const COULOMB_CONSTANT: f64 = 8.987_551_792_3e9;
+pub const COULOMB_CONSTANT: f64 = 8.987_551_792_3e9;
 
 /// The name of the particle quantity.
 const CHARGE: &str = "charge";

@@ -15,7 +15,7 @@ mod liquid_bridge;
 mod none;
 mod reversible;
 
-pub use coulomb::Coulomb;
+pub use coulomb::{COULOMB_CONSTANT, Coulomb};
 pub use hamaker::Hamaker;
 pub(crate) use hamaker::{HAMAKER, Z0};
 pub use jump_in::JumpIn;

@@ -1,6 +1,6 @@
 //! The contact model of each pair of materials.
 
-use pulvis_boundary::MOST_HOLLOW;
+use pulvis_boundary::{Electrostatics, MOST_HOLLOW};
 use pulvis_contact::{ContactModel, Pair, Sizes};
 use pulvis_math::max_or_nan;
 
@@ -11,6 +11,8 @@ use crate::particles::MaterialIndex;
 pub struct Interactions {
     materials: usize,
     models: Vec<Option<ContactModel>>,
+    /// The medium through which charges act over all distances, if they do.
+    electrostatics: Option<Electrostatics>,
     /// The pairs of materials that can meet among the present particles and walls.
     groups: Vec<Group>,
     /// The group of each pair of materials.
@@ -35,6 +37,7 @@ impl Interactions {
         Self {
             materials,
             models: vec![None; materials * materials],
+            electrostatics: None,
             groups: Vec::new(),
             group_of: vec![NO_GROUP; materials * materials],
         }
@@ -44,7 +47,7 @@ impl Interactions {
     pub fn set(&mut self, one: MaterialIndex, other: MaterialIndex, model: ContactModel) {
         let needed = usize::from(one.max(other)) + 1;
         if needed > self.materials {
-            let mut grown = Self::new(needed);
+            let mut grown = Self { electrostatics: self.electrostatics, ..Self::new(needed) };
             for (index, known) in self.models.iter().enumerate() {
                 grown.models[index / self.materials * needed + index % self.materials] = *known;
             }
@@ -59,6 +62,17 @@ impl Interactions {
         // Outside the table, the index would be that of another pair.
         let listed = usize::from(one.max(other)) < self.materials;
         if listed { self.models[self.pair(one, other)].as_ref() } else { None }
+    }
+
+    /// Lets all charges (the quantity `charge` of the particles [C]) act on each other over all distances, with q_i q_j/(4 π ε_0
+    /// ε_r r²) from centre to centre; `None`: they do not. In open space only, and not beside contact laws that read charges.
+    pub fn set_electrostatics(&mut self, electrostatics: Option<Electrostatics>) {
+        self.electrostatics = electrostatics;
+    }
+
+    /// The medium through which charges act over all distances, if they do.
+    pub fn electrostatics(&self) -> Option<&Electrostatics> {
+        self.electrostatics.as_ref()
     }
 
     /// Number of groups. Pairs of materials that no present body has are not among them.

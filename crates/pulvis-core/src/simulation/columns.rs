@@ -4,6 +4,7 @@ use pulvis_contact::catalogue::Value;
 
 use super::{SetupError, Simulation};
 use crate::columns::NamedColumn;
+use crate::electrostatics::CHARGE;
 
 /// Columns: quantities that the engine carries along with the particles, such as a charge or a temperature. They are
 /// put into a new order with them, exported, and given for particles that are inserted.
@@ -52,7 +53,8 @@ impl Simulation {
     /// Whether a law reads the quantity of this name.
     fn is_read(&self, name: &str) -> bool {
         let mut read = self.interactions.models().flat_map(|model| model.particle_quantities());
-        read.any(|quantity| quantity.name == name)
+        let acts = name == CHARGE && self.interactions.electrostatics().is_some();
+        acts || read.any(|quantity| quantity.name == name)
     }
 
     /// Whether particles have all quantities that laws read.
@@ -69,7 +71,7 @@ impl Simulation {
                 return Err(SetupError::Column { name, problem });
             }
         }
-        Ok(())
+        self.check_electrostatics()
     }
 
     /// Refuses columns that are not those of the particles, with `count` values each.

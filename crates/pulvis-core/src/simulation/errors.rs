@@ -129,6 +129,9 @@ pub enum SetupError {
         /// What is wrong.
         problem: String,
     },
+    /// Charges cannot act over all distances; why.
+    #[error("charges cannot act over all distances: {0}")]
+    Electrostatics(String),
     /// The threads cannot be started.
     #[error("cannot start {0} threads; ask for fewer")]
     Threads(usize),

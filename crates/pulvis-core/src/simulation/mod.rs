@@ -6,6 +6,7 @@ mod checks;
 mod columns;
 mod diagnosis;
 mod edit;
+mod electrostatics;
 mod errors;
 mod groups;
 mod insertion;
@@ -32,7 +33,9 @@ use self::cell::Cell;
 use self::sums::{PassTotals, RowSums};
 use crate::chunk_tree::ChunkTree;
 use crate::columns::NamedColumn;
+
 use crate::contacts::{BrokenBonds, ContactTable, Interactions, MemoryStore};
+use crate::electrostatics::Charges;
 use crate::integrator::Kicked;
 use crate::ledger::Running;
 use crate::neighbours::{Moved, Skin};
@@ -101,6 +104,8 @@ pub struct Simulation {
     materials: Vec<MaterialIndex>,
     /// Scratch: what came out of the integration of each chunk.
     outcomes: Vec<Outcome>,
+    /// Scratch: the charges, where they act over all distances.
+    charges: Charges,
     /// What all chunks came to in the last pass.
     pass: PassTotals,
     /// Scratch: sums over chunks.
@@ -235,6 +240,7 @@ impl Simulation {
             phases: None,
             materials: Vec::new(),
             outcomes: Vec::new(),
+            charges: Charges::default(),
             pass: PassTotals::default(),
             tree: ChunkTree::default(),
             row_sums: None,

@@ -28,7 +28,7 @@ impl Simulation {
 
     /// The same from sums over all rows.
     pub(super) fn ledger_of(&self, rows: RowSums) -> Ledger {
-        let RowSums { translation, rotation, discretisation, potential, fastest: _ } = rows;
+        let RowSums { translation, rotation, discretisation, potential, electrostatic, fastest: _ } = rows;
         let unknown = if self.accounting { 0.0 } else { f64::NAN };
         let stored = self.running.contacts;
         let mut ledger = Ledger {
@@ -42,7 +42,7 @@ impl Simulation {
             elastic_bond: stored.elastic_bond + unknown,
             adhesive: stored.adhesive_potential + unknown,
             capillary: stored.capillary + unknown,
-            electrostatic: stored.electrostatic + unknown,
+            electrostatic: stored.electrostatic + electrostatic + unknown,
             gravity: potential + self.running.gravity_wrapped,
             dissipated_plastic: stored.dissipated_plastic + unknown,
             dissipated_adhesive: stored.dissipated_adhesive + unknown,

@@ -247,21 +247,29 @@ impl Simulation {
 
     /// Tells all ranks where all rows are in the middle of a step, for a new list.
     pub(super) fn gather_kinematics(&mut self) -> Agreed {
-        self.gather_rows(Told::Kinematics)
+        self.gather_rows(|particles, row| vectors_of(particles, row, Told::Kinematics))
     }
 
     /// Tells all ranks how all rows are at the end of a step.
     pub(super) fn gather_rows_at_end(&mut self) -> Agreed {
-        self.gather_rows(Told::State)
+        self.gather_rows(|particles, row| vectors_of(particles, row, Told::State))
     }
 
-    fn gather_rows(&mut self, told: Told) -> Agreed {
+    /// Tells all ranks where all rows are.
+    pub(super) fn gather_positions(&mut self) -> Agreed {
+        self.gather_rows(|particles, row| [&mut particles.position[row].vector])
+    }
+
+    fn gather_rows<const N: usize>(
+        &mut self,
+        vectors_of: impl for<'a> Fn(&'a mut Particles, usize) -> [&'a mut Vector3; N],
+    ) -> Agreed {
         let Some(ranks) = self.ranks.as_mut().filter(|ranks| ranks.shares) else { return Ok(()) };
         let own = ranks.rank();
         let rows = self.contacts.rows_of(ranks.chunks_of(own));
-        let mut message = Vec::with_capacity(15 * rows.len());
+        let mut message = Vec::with_capacity(3 * N * rows.len());
         for row in rows {
-            for vector in vectors_of(&mut self.particles, row, told) {
+            for vector in vectors_of(&mut self.particles, row) {
                 tell_vector(*vector, &mut message);
             }
         }
@@ -270,7 +278,7 @@ impl Simulation {
         for (rank, message) in ranks.gather(&message)?.iter().enumerate().filter(|(rank, _)| *rank != own) {
             let mut numbers = Numbers::of(message);
             for row in rows_of[rank].clone() {
-                for vector in vectors_of(&mut self.particles, row, told) {
+                for vector in vectors_of(&mut self.particles, row) {
                     *vector = numbers.next_vector()?;
                 }
             }
@@ -284,7 +292,7 @@ impl Simulation {
             return Ok(());
         }
         self.tell_movement()?;
-        self.gather_rows(Told::State)?;
+        self.gather_rows_at_end()?;
         let Some(ranks) = self.ranks.as_mut().filter(|ranks| ranks.shares) else { return Ok(()) };
         let own = ranks.rank();
         let mut message = Message::new();
@@ -304,6 +312,7 @@ impl Simulation {
         ranks.shares = false;
         let slots = self.contacts.take_all();
         self.particles.forces_and_torques.resize(slots, ForceTorque::default());
+        self.sum_charges_of_all();
         Ok(())
     }
 }

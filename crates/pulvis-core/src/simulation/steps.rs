@@ -256,6 +256,7 @@ impl Simulation {
     /// # Errors
     /// A rank is lost.
     fn forces_and_kick(&mut self, at_rest: bool, onwards: bool) -> Result<(), ExchangeError> {
+        self.sum_charges()?;
         self.walls_now.clear();
         for (wall, state) in self.walls.iter().zip(&self.wall_states) {
             let motion = if at_rest { state.now_at_rest(wall) } else { state.now(wall) };

@@ -37,13 +37,15 @@ pub(super) struct RowSums {
     pub(super) discretisation: f64,
     /// Potential energy of gravity [J].
     pub(super) potential: f64,
+    /// Potential energy of charges that act over all distances [J].
+    pub(super) electrostatic: f64,
     /// The largest speed of a particle [m/s].
     pub(super) fastest: f64,
 }
 
 impl RowSums {
-    const SUMS: usize = 4;
-    const NUMBERS: usize = 5;
+    const SUMS: usize = 5;
+    const NUMBERS: usize = 6;
 
     fn of(numbers: &[f64]) -> Agreed<Self> {
         let mut numbers = Numbers::of(numbers);
@@ -52,6 +54,7 @@ impl RowSums {
             rotation: numbers.next()?,
             discretisation: numbers.next()?,
             potential: numbers.next()?,
+            electrostatic: numbers.next()?,
             fastest: numbers.next()?.sqrt(),
         })
     }
@@ -159,13 +162,16 @@ impl Simulation {
 
     fn sums_of(&self, rows: Range<usize>) -> [f64; RowSums::NUMBERS] {
         let (particles, gravity) = (&self.particles, self.background.gravity);
-        let [mut translation, mut rotation, mut discretisation, mut potential] = [0.0; RowSums::SUMS];
+        let [mut translation, mut rotation, mut discretisation, mut potential, mut electrostatic] =
+            [0.0; RowSums::SUMS];
         let mut fastest = 0.0;
         for row in rows {
             let (mass, inertia) = (particles.mass[row], particles.inertia(row));
             let load = &particles.forces_and_torques[row];
             let speed_squared = particles.velocity[row].vector.norm_squared();
             potential -= mass * gravity.dot(particles.position[row].vector);
+            // Half of the energy of each pair belongs to each of the two.
+            electrostatic += particles.electrostatic.get(row).map_or(0.0, |charge| 0.5 * charge.scalar);
             fastest = max_or_nan(fastest, speed_squared);
             // Like that of walls, what moves these is outside: see `work_walls`.
             if particles.is_prescribed(row) {
@@ -176,6 +182,6 @@ impl Simulation {
             discretisation += load.force.vector.norm_squared() / mass;
             discretisation += load.torque.vector.norm_squared() / inertia;
         }
-        [translation, rotation, discretisation, potential, fastest]
+        [translation, rotation, discretisation, potential, electrostatic, fastest]
     }
 }

@@ -65,15 +65,35 @@ pub(super) fn read_columns(
     Ok(columns)
 }
 
-/// Refuses `particles` or `inlets` that lack a quantity that a law reads, or have one that the law does not take.
+/// What reads a quantity of particles.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Reader {
+    /// A law of a contact.
+    Law,
+    /// `[electrostatics]`.
+    Electrostatics,
+}
+
+impl Reader {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Law => "a law",
+            Self::Electrostatics => "[electrostatics]",
+        }
+    }
+}
+
+/// Refuses `particles` or `inlets` that lack a quantity that is read, or have one that is not taken.
 pub(super) fn needs_quantity(
     root: &TableReader<'_>,
     (key, columns): (&str, &[ParticleColumn]),
     quantity: &Parameter,
+    reader: Reader,
 ) -> Result<(), Reported> {
     let (name, unit) = (quantity.name, quantity.unit());
     let Some(column) = columns.iter().find(|column| column.name == name) else {
-        let expected = format!("the {} [{unit}] in [{key}.columns], which a law reads", quantity.meaning);
+        let expected =
+            format!("the {} [{unit}] in [{key}.columns], which {} reads", quantity.meaning, reader.name());
         let problem = Problem::MissingKey { key: format!("{key}.columns.{name}"), expected };
         return Err(root.refuse(key, problem));
     };

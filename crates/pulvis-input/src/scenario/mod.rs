@@ -41,6 +41,7 @@ mod columns;
 mod contacts;
 mod controls;
 mod domain;
+mod electrostatics;
 mod groups;
 mod import;
 mod inlets;
@@ -96,8 +97,9 @@ pub use particles::{ParticleGroup, VelocityPlan};
 pub use programs::{Program, ProgramState, Programs};
 pub use pulvis_boundary::motion::{Cosine, PressureRamp, Rotation, Servo, Velocity};
 pub use pulvis_boundary::{
-    Background, CellControl, CellMotion, Cone, Cuboid, Cylinder, CylinderSide, Disk, Domain, GroupMotion,
-    Mesh, Plane, PlaneWithHole, Region, TemperatureProgram, Tube, UpperTriangular, WallMotion, WallShape,
+    Background, CellControl, CellMotion, Cone, Cuboid, Cylinder, CylinderSide, Disk, Domain, Electrostatics,
+    GroupMotion, Mesh, Plane, PlaneWithHole, Region, TemperatureProgram, Tube, UpperTriangular, WallMotion,
+    WallShape,
 };
 pub use pulvis_packing::{Amount, GasVelocities, Growth, Lattice, RadiusDistribution, Structure};
 pub use stages::Stage;
@@ -135,6 +137,8 @@ pub struct Scenario {
     pub background: Background,
     /// Temperature over time, from the start of the first stage on; where it is given.
     pub temperature: Option<TemperatureProgram>,
+    /// The medium through which charges act over all distances, if they do.
+    pub electrostatics: Option<Electrostatics>,
     /// The groups of particles; at least one, unless there are inlets.
     pub particles: Vec<ParticleGroup>,
     /// Where particles come in during the run.

@@ -174,7 +174,11 @@ impl Resolution<'_> {
         let groups = scenario.particles.iter().map(|group| ("particles", &group.columns[..]));
         let inlets = scenario.inlets.iter().map(|inlet| ("inlets", &inlet.columns[..]));
         let columns: Vec<_> = groups.chain(inlets).collect();
-        let given = Given { columns: &columns, temperature: scenario.temperature.as_ref() };
+        let given = Given {
+            columns: &columns,
+            temperature: scenario.temperature.as_ref(),
+            has_electrostatics: scenario.electrostatics.is_some(),
+        };
         let read = self.document.read(|mut root| {
             let changing = Changing::read(&mut root, &scenario.materials, Some(self.used), Some(given));
             for key in root.keys() {

@@ -1,9 +1,10 @@
 //! The walk over a scenario file, first as it stands, then once more for every stage that switches.
 
 use super::allow::read_allow;
-use super::columns::{ParticleColumn, needs_quantity};
+use super::columns::{ParticleColumn, Reader, needs_quantity};
 use super::contacts::{Contact, MaterialUse, read_contacts};
 use super::domain::{read_background, read_domain};
+use super::electrostatics::{check_charges, check_number_of_charges, read_electrostatics};
 use super::groups::{check_group_names, read_groups};
 use super::limits::read_limits;
 use super::materials::{Material, read_materials};
@@ -29,7 +30,7 @@ use pulvis_boundary::{Background, TemperatureProgram};
 use std::path::Path;
 
 /// The keys of a scenario, in the order of the documentation.
-const KEYS: [&str; 21] = [
+const KEYS: [&str; 22] = [
     "title",
     "start_from",
     "seed",
@@ -40,6 +41,7 @@ const KEYS: [&str; 21] = [
     "contacts",
     "background",
     "temperature",
+    "electrostatics",
     "particles",
     "inlets",
     "outlets",
@@ -138,14 +140,24 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
     });
     let used = bodies.as_ref().map(|(walls, groups, openings)| material_use(walls, groups, openings)).ok();
     let temperature = read_temperature(&mut root);
+    let electrostatics = read_electrostatics(&mut root, known).and_then(|medium| {
+        if let (Some(_), Ok((_, groups, _))) = (medium, &bodies) {
+            check_number_of_charges(&root, groups)?;
+        }
+        Ok(medium)
+    });
     let columns = bodies.as_ref().map(|(_, groups, openings)| {
         let groups = groups.iter().map(|(group, _)| ("particles", &group.columns[..]));
         groups
             .chain(openings.inlets.iter().map(|(inlet, _)| ("inlets", &inlet.columns[..])))
             .collect::<Vec<_>>()
     });
-    let given = match (&columns, &temperature) {
-        (Ok(columns), Ok(temperature)) => Some(Given { columns, temperature: temperature.as_ref() }),
+    let given = match (&columns, &temperature, &electrostatics) {
+        (Ok(columns), Ok(temperature), Ok(electrostatics)) => Some(Given {
+            columns,
+            temperature: temperature.as_ref(),
+            has_electrostatics: electrostatics.is_some(),
+        }),
         _ => None,
     };
     let changing = Changing::read(&mut root, &materials, used.as_ref(), given);
@@ -163,6 +175,7 @@ fn walk(mut root: TableReader<'_>, file: &Path, folder: &Path) -> Result<Walked,
         contacts,
         background,
         temperature: temperature?,
+        electrostatics: electrostatics?,
         particles: groups.into_iter().map(|(group, _)| group).collect(),
         inlets: openings.inlets.into_iter().map(|(inlet, _)| inlet).collect(),
         outlets: openings.outlets.into_iter().map(|(outlet, _)| outlet).collect(),
@@ -225,15 +238,22 @@ pub(super) struct Given<'a> {
     /// The further quantities of all groups and inlets, with the key that they stand under.
     pub(super) columns: &'a [(&'a str, &'a [ParticleColumn])],
     pub(super) temperature: Option<&'a TemperatureProgram>,
+    /// Whether charges act over all distances.
+    pub(super) has_electrostatics: bool,
 }
 
 impl Given<'_> {
     /// Whether all is there that the contacts read; tells them how large it is.
     fn satisfies(&self, root: &TableReader<'_>, contacts: &mut [Contact]) -> Result<(), Reported> {
         needs_temperature(root, self.temperature, contacts.iter().map(|contact| &contact.model))?;
+        if self.has_electrostatics {
+            check_charges(root, self.columns, contacts)?;
+        }
         for contact in contacts {
             for quantity in contact.model.particle_quantities() {
-                self.columns.iter().try_for_each(|columns| needs_quantity(root, *columns, quantity))?;
+                self.columns
+                    .iter()
+                    .try_for_each(|columns| needs_quantity(root, *columns, quantity, Reader::Law))?;
             }
             let columns = || self.columns.iter().flat_map(|(_, columns)| *columns);
             contact.model = contact.model.bounded_by(|name| {

@@ -40,6 +40,7 @@ pub(super) fn file(page: Page<'_>) -> Value {
             "The temperature of everything, which sintering laws read: one for all time, or a `program`.",
             temperature(),
         ),
+        ("electrostatics", "Charges act on each other over all distances.", electrostatics(page)),
         ("particles", "Groups of particles.", tables(particles(page))),
         ("inlets", "Particles that come in during the run.", tables(inlets(page))),
         ("outlets", "Where particles leave during the run.", tables(outlets(page))),
@@ -85,6 +86,10 @@ fn materials(page: Page<'_>) -> Value {
 
 fn background(page: Page<'_>) -> Value {
     page.at("`[background]`").table([("drag", quantity()), ("rotational_drag", quantity())], &[])
+}
+
+fn electrostatics(page: Page<'_>) -> Value {
+    page.at("`[electrostatics]`").table([("relative_permittivity", number())], &[])
 }
 
 fn time(page: Page<'_>) -> Value {

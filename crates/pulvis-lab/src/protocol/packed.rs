@@ -77,9 +77,12 @@ pub(super) fn packing(
         });
     }
     let edge = cells as f64 * spacing;
+    // Charges do not act over all distances in a periodic box.
+    let mut interactions = interactions.clone();
+    interactions.set_electrostatics(None);
     let setup = Setup {
         particles: packed,
-        interactions: interactions.clone(),
+        interactions,
         walls: Vec::new(),
         domain: Domain::periodic(Vector3::zero(), Vector3::new(edge, edge, edge), [true; 3]),
         background: Default::default(),

@@ -3,7 +3,7 @@
 use pulvis_core::walls::{Extent, FaceArea, Wall};
 use pulvis_core::{
     Background, CellMotion, ContactPartner, Domain, Interactions, MaterialIndex, MotionKind, Particle, Setup,
-    ShortestMotion, Simulation, shortest_motion,
+    ShortestMotion, Simulation, shortest_motion, shortest_motion_of_charges,
 };
 use pulvis_input::scenario::{Contact, Refusal, Scenario, Side, TimeStep, Wall as WallPlan, WallControl};
 
@@ -17,7 +17,7 @@ use super::error::PrepareError;
 use super::feasible::check_feasible;
 use super::groups::check_groups;
 use super::memory::refuse_too_many;
-use super::openings::{OpeningsRecord, check_openings, sample_of_inlets};
+use super::openings::{OpeningsRecord, charges_of, check_openings, sample_of_inlets};
 use super::particles::{columns, generate};
 use super::programs::program_plans;
 use super::refusal::refuse_setup;
@@ -85,7 +85,8 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
     check_start(scenario, &particles, &walls)?;
     check_openings(scenario, &walls)?;
     let sample = [&particles[..], &sample_of_inlets(scenario)].concat();
-    let stages = stages(scenario, &sample, &walls)?;
+    let columns = columns(scenario);
+    let stages = stages(scenario, (&sample, &charges_of(scenario, &columns)), &walls)?;
     let first = &stages[0];
     let setup = Setup {
         particles: particles.clone(),
@@ -96,7 +97,7 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, PrepareError> {
         time_step: first.time_step,
     };
     let refused = |error| refuse_setup(scenario, &error);
-    let mut simulation = Simulation::with_columns(setup, columns(scenario)).map_err(refused)?;
+    let mut simulation = Simulation::with_columns(setup, columns).map_err(refused)?;
     simulation.set_temperature(scenario.temperature.clone());
     simulation.set_limits(limits(scenario));
     check_overlaps(scenario, &simulation)?;
@@ -126,10 +127,13 @@ fn check_materials(scenario: &Scenario) -> Result<(), PrepareError> {
 
 pub(super) fn stages(
     scenario: &Scenario,
-    particles: &[Particle],
+    (particles, charges): (&[Particle], &[f64]),
     walls: &[Wall],
 ) -> Result<Vec<StagePlan>, PrepareError> {
     let mut walls = walls.to_vec();
+    let of_charges = scenario
+        .electrostatics
+        .and_then(|electrostatics| shortest_motion_of_charges(particles, charges, &electrostatics));
     let grows = !scenario.inlets.is_empty();
     let mut plans = Vec::with_capacity(scenario.stages.len());
     for (number, stage) in scenario.stages.iter().enumerate() {
@@ -145,6 +149,7 @@ pub(super) fn stages(
         let states = start.chain(programs.iter().skip(1).map(|(models, background)| (models, background)));
         let shortest = states
             .filter_map(|(models, background)| shortest_motion(particles, models, &walls, background, grows))
+            .chain(of_charges)
             .min_by(|one, other| one.duration.total_cmp(&other.duration));
         let time_step = time_step(scenario, stage.time, shortest, number)?;
         plans.push(StagePlan {
@@ -162,6 +167,7 @@ pub(super) fn stages(
 
 pub(super) fn interactions(scenario: &Scenario, contacts: &[Contact]) -> Interactions {
     let mut interactions = Interactions::new(scenario.materials.len());
+    interactions.set_electrostatics(scenario.electrostatics);
     for contact in contacts {
         let [one, other] = contact.materials;
         interactions.set(one as MaterialIndex, other as MaterialIndex, contact.model);
@@ -194,6 +200,7 @@ fn time_step(
                 Some(MotionKind::WallOnContacts { .. }) => "take \"auto\", or a heavier wall",
                 Some(MotionKind::WallDamping { .. }) => "take \"auto\", or less damping, or a heavier wall",
                 Some(MotionKind::Drag | MotionKind::RotationalDrag) => "take \"auto\", or less drag",
+                Some(MotionKind::Charges) => "take \"auto\", or smaller charges",
                 _ => "take \"auto\", or soften the contact",
             };
             (step, Problem::rule(found, format!("at most {:.4e} s", duration / least)), help)
@@ -224,6 +231,7 @@ pub fn describe_motion(scenario: &Scenario, shortest: &ShortestMotion) -> String
         MotionKind::RotationalDrag => {
             "the rotational drag of the background on the lightest particle".to_owned()
         }
+        MotionKind::Charges => "two charges that touch".to_owned(),
         _ => "another motion".to_owned(),
     }
 }

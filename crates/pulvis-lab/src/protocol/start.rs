@@ -1,7 +1,7 @@
 //! Simulations that start from a checkpoint: of the same run, or of another one.
 
 use pulvis_core::walls::Wall;
-use pulvis_core::{Domain, Particle, Simulation, State};
+use pulvis_core::{Domain, NamedColumn, Particle, Simulation, State};
 use pulvis_input::scenario::{Scenario, Stage, StartFrom, WallControl};
 use pulvis_input::{Document, InputErrors, Problem, Replacement};
 use pulvis_io::vtk::Frame;
@@ -16,7 +16,7 @@ use super::error::PrepareError;
 use super::feasible::{check_feasible, start_stage};
 use super::frame::frame_of;
 use super::groups::check_groups;
-use super::openings::{check_openings, sample_of_inlets};
+use super::openings::{charges_of, check_openings, sample_of_inlets};
 use super::particles::generate;
 use super::programs::{models_after, program_plans};
 use super::run::StageResult;
@@ -246,7 +246,8 @@ pub(super) fn branch(scenario: &Scenario, start: &StartFrom) -> Result<Prepared,
     check_controls(scenario, &walls)?;
     check_openings(scenario, &walls)?;
     let sample = [&particles[..], &sample_of_inlets(scenario)].concat();
-    let stages = stages(scenario, &sample, &walls)?;
+    let charges = charges_of(scenario, &columns_of(&state));
+    let stages = stages(scenario, (&sample, &charges), &walls)?;
     let mut simulation =
         Simulation::import_state(models.clone(), walls, &state).map_err(|error| unfit(error.to_string()))?;
     simulation.set_temperature(scenario.temperature.clone());
@@ -331,4 +332,16 @@ fn particles_of(state: &State) -> Vec<Particle> {
         angular_velocity: columns.angular_velocity[row].into(),
     };
     rows.into_iter().map(particle).collect()
+}
+
+/// Their further quantities, by id.
+fn columns_of(state: &State) -> Vec<NamedColumn> {
+    let particles = &state.particles;
+    let mut rows: Vec<usize> = (0..particles.id.len()).collect();
+    rows.sort_unstable_by_key(|&row| particles.id[row]);
+    let by_id = |column: &NamedColumn| NamedColumn {
+        values: rows.iter().map(|&row| column.values[row]).collect(),
+        ..column.clone()
+    };
+    particles.columns.iter().map(by_id).collect()
 }

@@ -49,6 +49,7 @@ impl Simulation {
             pass,
             // Written in every step before they are read.
             tree: _,
+            charges: _,
             row_sums: _,
             walls_now: _,
             on_particles: _,
@@ -103,6 +104,8 @@ fn particles_of(particles: &Particles) -> ParticleState {
         velocity_predicted: _,
         angular_velocity_predicted: _,
         applied,
+        // Follows from positions and charges.
+        electrostatic: _,
         columns,
         next_id: _,
         // Follows from the groups.

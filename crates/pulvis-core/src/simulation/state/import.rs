@@ -46,6 +46,7 @@ impl Simulation {
         simulation.contacts.import(&simulation.particles.id, &state.memory, &state.list.active)?;
         simulation.pass.observed = state.totals;
         simulation.go_to_present(state)?;
+        simulation.sum_charges_of_all();
         Ok(simulation)
     }
 

@@ -12,7 +12,7 @@ use super::output::{CheckpointPlan, ClusterRule, Interval, OutputPlan, Snapshots
 use super::output_files::write_output_files;
 use super::start::StartFrom;
 use super::time::TimeStep;
-use super::{Axis, Contact, Material, NamedLaw, Scenario, Stage};
+use super::{Axis, Contact, Electrostatics, Material, NamedLaw, Scenario, Stage};
 use pulvis_contact::catalogue::mixing::MATERIAL_PROPERTIES;
 use pulvis_contact::catalogue::{Kind, Role, Value};
 use pulvis_math::{Dimension, Vector3};
@@ -66,6 +66,10 @@ impl Scenario {
                 list([quantity(*time, Dimension::TIME), quantity(*temperature, Dimension::TEMPERATURE)])
             };
             writer.key("program", list(program.points().iter().map(point)));
+        }
+        if let Some(Electrostatics { relative_permittivity }) = self.electrostatics {
+            writer.table("electrostatics");
+            writer.key("relative_permittivity", quantity(relative_permittivity, Dimension::NONE));
         }
         self.write_particles(&mut writer);
         write_inlets(&mut writer, &self.inlets, |material| self.material_text(material));

@@ -113,6 +113,9 @@ pub(super) fn forces_on(simulation: &Simulation, id: ParticleId) -> String {
     let particles = simulation.particles();
     if let Some(row) = particles.ids().iter().position(|known| *known == id) {
         push("gravity".to_owned(), simulation.background().gravity * particles.masses()[row], None);
+        if let Some(force) = simulation.electrostatic_force(row) {
+            push("all other charges".to_owned(), force, None);
+        }
         let velocity = particles.velocities().iter().nth(row).unwrap_or(Vector3::zero());
         let [x, y, z, radius, mass] =
             [velocity.x, velocity.y, velocity.z, particles.radii()[row], particles.masses()[row]]

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use pulvis_boundary::Domain;
 use pulvis_core::walls::Wall;
-use pulvis_core::{MaterialIndex, Particle};
+use pulvis_core::{MaterialIndex, NamedColumn, Particle};
 use pulvis_input::Problem;
 use pulvis_input::scenario::{Amount, Scenario, Stage};
 use pulvis_math::Vector3;
@@ -38,6 +38,17 @@ pub(in crate::protocol) fn sample_of_inlets(scenario: &Scenario) -> Vec<Particle
         })
     });
     spheres.collect()
+}
+
+/// The charges [C] of the particles that have these `columns`, and of the [sample](sample_of_inlets) of all inlets; none where
+/// particles have no charge.
+pub(in crate::protocol) fn charges_of(scenario: &Scenario, columns: &[NamedColumn]) -> Vec<f64> {
+    let of_particles = columns.iter().find(|column| column.name == "charge");
+    let of_inlets = scenario.inlets.iter().flat_map(|inlet| {
+        let charge = inlet.columns.iter().find(|column| column.name == "charge");
+        [charge.map_or(0.0, |charge| charge.value); 2]
+    });
+    of_particles.into_iter().flat_map(|column| column.values.iter().copied()).chain(of_inlets).collect()
 }
 
 fn volume(radius: f64) -> f64 {

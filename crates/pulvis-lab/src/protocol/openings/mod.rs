@@ -10,7 +10,7 @@ use pulvis_core::{SetupError, Simulation};
 use pulvis_input::scenario::{Amount, Inlet, Outlet, Scenario};
 use thiserror::Error;
 
-pub(super) use check::{check_openings, sample_of_inlets};
+pub(super) use check::{charges_of, check_openings, sample_of_inlets};
 pub(super) use record::OpeningsRecord;
 
 use clock::Clock;
