@@ -2,6 +2,7 @@
 
 use crate::error::InputError;
 use crate::problem::Problem;
+use crate::scenario::CheckpointReader;
 use crate::source::Source;
 use std::cell::RefCell;
 use std::ops::Range;
@@ -34,13 +35,15 @@ impl Location {
 /// What all readers of one walk share.
 pub(crate) struct Context<'d> {
     source: &'d Source,
+    /// What reads checkpoints that the file names.
+    pub(crate) checkpoints: Option<CheckpointReader>,
     errors: RefCell<Vec<InputError>>,
     open: RefCell<Vec<Location>>,
 }
 
 impl<'d> Context<'d> {
-    pub(crate) fn new(source: &'d Source) -> Self {
-        Self { source, errors: RefCell::default(), open: RefCell::default() }
+    pub(crate) fn new(source: &'d Source, checkpoints: Option<CheckpointReader>) -> Self {
+        Self { source, checkpoints, errors: RefCell::default(), open: RefCell::default() }
     }
 
     /// Records a mistake.

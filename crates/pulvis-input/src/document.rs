@@ -6,6 +6,7 @@ use crate::load::read_source;
 use crate::overrides::{Replacement, replace};
 use crate::problem::Problem;
 use crate::reader::TableReader;
+use crate::scenario::CheckpointReader;
 use crate::scenario::start::{StartFrom, read_start};
 use crate::setting::set;
 use crate::source::Source;
@@ -20,6 +21,7 @@ use toml::de::DeTable;
 pub struct Document {
     source: Arc<Source>,
     root: Table,
+    checkpoints: Option<CheckpointReader>,
 }
 
 impl Document {
@@ -49,7 +51,22 @@ impl Document {
             let place = Some(source.place(&(0..0)));
             return Err(InputError { place, ..InputError::of_file(&source.name, Problem::Empty) }.into());
         }
-        Ok(Self { source: Arc::new(source), root })
+        Ok(Self { source: Arc::new(source), root, checkpoints: None })
+    }
+
+    /// The same file, whose particles may stand in checkpoints.
+    #[must_use]
+    pub fn with_checkpoint_reader(self, reader: CheckpointReader) -> Self {
+        Self { checkpoints: Some(reader), ..self }
+    }
+
+    /// The names in the table `materials`, in their order; none where there is no such table.
+    pub fn material_names(&self) -> Vec<String> {
+        let names = self.root.entries.get("materials").and_then(|entry| match &entry.node.value {
+            Value::Table(materials) => Some(materials.in_order()),
+            _ => None,
+        });
+        names.unwrap_or_default().into_iter().map(|(name, _)| name.to_owned()).collect()
     }
 
     /// The same file with all bare numbers in SI units, whatever the dimension of their keys: what a program has written.
@@ -82,7 +99,7 @@ impl Document {
         &self,
         walk: impl FnOnce(TableReader<'_>) -> Result<T, Reported>,
     ) -> Result<T, InputErrors> {
-        let context = Context::new(&self.source);
+        let context = Context::new(&self.source, self.checkpoints);
         let result = walk(TableReader::new(&context, &self.root, String::new(), 0..0));
         match (result, context.into_errors()) {
             (Ok(value), errors) if errors.is_empty() => Ok(value),
@@ -105,7 +122,7 @@ impl Document {
     pub fn with_override(&self, path: &str, value: impl Into<Replacement>) -> Result<Self, InputErrors> {
         let mut root = self.root.clone();
         replace(&mut root, &self.source, path, value.into())?;
-        Ok(Self { source: Arc::clone(&self.source), root })
+        Ok(Self { source: Arc::clone(&self.source), root, checkpoints: self.checkpoints })
     }
 
     /// The same file with several values replaced, as the command line does it.
@@ -155,7 +172,7 @@ impl Document {
             entry.move_to(&place.span, self.source.text.len());
             root.entries.insert(key.clone(), entry);
         }
-        Self { source: Arc::clone(&self.source), root }
+        Self { source: Arc::clone(&self.source), root, checkpoints: self.checkpoints }
     }
 
     /// The dotted paths of all values that were set from outside the file.
@@ -172,7 +189,7 @@ impl Document {
     pub(crate) fn with_setting(&self, path: &str, value: Replacement) -> Result<Self, Problem> {
         let mut root = self.root.clone();
         set(&mut root, path, value)?;
-        Ok(Self { source: Arc::clone(&self.source), root })
+        Ok(Self { source: Arc::clone(&self.source), root, checkpoints: self.checkpoints })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::context::{Context, Location, Reported};
 use crate::problem::Problem;
+use crate::scenario::CheckpointReader;
 use crate::shape::{Name, Shape};
 use crate::similar::similar;
 use crate::value::{Table, join_path};
@@ -28,6 +29,11 @@ impl<'d> TableReader<'d> {
         let location = Location { span, path, replaced: false };
         context.open(&location);
         Self { context, table, location, asked: BTreeMap::new(), reported: Vec::new() }
+    }
+
+    /// What reads checkpoints that the file names.
+    pub(crate) fn checkpoint_reader(&self) -> Option<CheckpointReader> {
+        self.context.checkpoints
     }
 
     /// The value at `key`, of whatever kind, if the key is there.

@@ -6,6 +6,8 @@
 mod files;
 #[path = "protocol_run/groups.rs"]
 mod groups;
+#[path = "protocol_run/import.rs"]
+mod import;
 mod protocol_scenarios;
 #[path = "protocol_run/ranks.rs"]
 mod ranks;

@@ -1,7 +1,8 @@
 //! Where the particles of a group start.
 
+use super::columns::ParticleColumn;
 use super::domain::read_extent;
-use super::import::{FileReading, PointsError, PointsFormat, read_points};
+use super::import::{FileReading, GrainColumn, PointsError, PointsFormat, read_points};
 use super::listed::read_list;
 use super::materials::{Material, read_material_name};
 use crate::context::Reported;
@@ -42,6 +43,8 @@ pub enum Arrangement {
         reading: FileReading,
         /// What stands in it; a quantity is given for all grains or for none.
         grains: Vec<Grain>,
+        /// Further quantities of them, as far as the file has any.
+        columns: Vec<GrainColumn>,
     },
     /// As listed; a quantity is given for all grains or for none.
     List(Vec<Grain>),
@@ -53,6 +56,14 @@ impl Arrangement {
         match self {
             Self::File { grains, .. } | Self::List(grains) => grains,
             Self::Lattice(_) | Self::Random(_) | Self::Dense(_) | Self::Aggregate { .. } => &[],
+        }
+    }
+
+    /// What a file says of a further quantity, for each particle.
+    pub fn column(&self, name: &str) -> Option<&GrainColumn> {
+        match self {
+            Self::File { columns, .. } => columns.iter().find(|column| column.name == name),
+            _ => None,
         }
     }
 
@@ -141,8 +152,8 @@ fn read_file(
     let path = folder.join(given);
     let path = std::path::absolute(&path).unwrap_or(path);
     let reading = read_reading(table, materials, &path)?;
-    match read_points(&path, &reading) {
-        Ok(grains) => Ok(Arrangement::File { path, reading, grains }),
+    match read_points(&path, &reading, table.checkpoint_reader()) {
+        Ok((grains, columns)) => Ok(Arrangement::File { path, reading, grains, columns }),
         Err(error @ (PointsError::Missing { .. } | PointsError::Unreadable { .. })) => Err(table
             .refuse_with_help(
                 "path",
@@ -151,6 +162,29 @@ fn read_file(
             )),
         Err(error) => Err(table.refuse("path", Problem::Refused(Box::new(error)))),
     }
+}
+
+/// Refuses further quantities of a file that have another dimension than the scenario says, or values that are no numbers.
+pub(super) fn check_columns(
+    table: &TableReader<'_>,
+    arrangement: &Arrangement,
+    columns: &[ParticleColumn],
+) -> Result<(), Reported> {
+    for own in columns {
+        let Some(given) = arrangement.column(&own.name) else { continue };
+        let unit = own.dimension.unit();
+        if given.unit != unit {
+            let found = format!("`{}` is in {} in the file, and in {unit} here", own.name, given.unit);
+            return Err(
+                table.refuse("columns", Problem::rule(found, "the unit of the file, or another name"))
+            );
+        }
+        if let Some(row) = given.values.iter().position(|value| !value.is_finite()) {
+            let found = format!("`{}` of particle {row} is {} in the file", own.name, given.values[row]);
+            return Err(table.refuse("columns", Problem::rule(found, "finite numbers")));
+        }
+    }
+    Ok(())
 }
 
 /// How the file is read.
@@ -165,7 +199,9 @@ fn read_reading(
     let time_unit = table.or("time_unit", QuantityRule::of(Dimension::TIME).above(0.0), 1.0);
     let words = read_words(table, materials);
     let (format, frame) = (format?, frame?);
-    if frame.is_some() && matches!(format, PointsFormat::Table | PointsFormat::LammpsData) {
+    if frame.is_some()
+        && matches!(format, PointsFormat::Table | PointsFormat::LammpsData | PointsFormat::Checkpoint)
+    {
         let found = format!("a file of the format {:?} holds one instant", format.name());
         return Err(table.refuse("frame", Problem::rule(found, "no `frame`")));
     }

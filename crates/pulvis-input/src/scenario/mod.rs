@@ -80,7 +80,9 @@ pub use columns::ParticleColumn;
 pub use contacts::Contact;
 pub use controls::WallControl;
 pub use groups::{GroupControl, GroupPlan};
-pub use import::{FileReading, PointsError, PointsFormat};
+pub use import::{
+    CheckpointParticles, CheckpointReader, FileReading, GrainColumn, PointsError, PointsFormat,
+};
 pub use inlets::Inlet;
 pub use limits::Limits;
 pub use materials::Material;

@@ -1,6 +1,6 @@
 //! Groups of particles.
 
-use super::arrangement::{Arrangement, MOST_PARTICLES, read_arrangement};
+use super::arrangement::{Arrangement, MOST_PARTICLES, check_columns, read_arrangement};
 use super::columns::{ParticleColumn, read_columns};
 use super::materials::{Material, needs_density, read_material_with_density};
 use super::radius::read_radius;
@@ -155,6 +155,9 @@ fn read_group(
     }
     if let (Ok(material), Ok(None), Ok(arrangement)) = (material, &radius, &arrangement) {
         check_grains(&table, materials, material, arrangement)?;
+    }
+    if let (Ok(arrangement), Ok(columns)) = (&arrangement, &columns) {
+        check_columns(&table, arrangement, columns)?;
     }
     if let (Ok(Arrangement::Random(block)), Ok(count), Ok(Some(radius))) = (&arrangement, &count, &radius) {
         fitting_block(&table, block, *count, radius.limits().0)?;

@@ -59,7 +59,7 @@ mod warnings;
 pub use averages::Average;
 pub(crate) use check::stages;
 pub use check::{ContactForecast, Preflight, StageForecast, Sticking, preflight};
-pub use checkpoint::{FindError, checkpoint_files, has_ended};
+pub use checkpoint::{FindError, checkpoint_files, has_ended, scenario_from_text};
 pub use disk::DiskForecast;
 pub use ending::Ending;
 pub use error::{PrepareError, RunError};

@@ -44,7 +44,10 @@ pub(super) fn columns(scenario: &Scenario) -> Vec<NamedColumn> {
         values: scenario
             .particles
             .iter()
-            .flat_map(|group| std::iter::repeat_n(group.columns[index].value, group.count))
+            .flat_map(|group| match group.arrangement.column(&column.name) {
+                Some(given) => given.values.clone(),
+                None => vec![group.columns[index].value; group.count],
+            })
             .collect(),
     };
     scenario.columns().iter().enumerate().map(column).collect()

@@ -14,7 +14,7 @@ use pulvis_core::{Interactions, Simulation};
 use pulvis_input::scenario::{Scenario, Stage};
 use pulvis_parallel::exchange::{Exchange, ExchangeError, Message, Waiting};
 
-use super::checkpoint::find;
+use super::checkpoint::{find, scenario_from_text};
 use super::error::{PrepareError, RunError};
 use super::folder::RECORD;
 use super::measure::Measure;
@@ -258,7 +258,7 @@ fn follow_from_checkpoint(
     let unreadable = |source| PrepareError::Folder { folder: folder.to_owned(), source };
     let resolved = std::fs::read_to_string(&record).map_err(unreadable)?;
     let scenario =
-        Scenario::from_str(&record.display().to_string(), &resolved).map_err(PrepareError::from)?;
+        scenario_from_text(&record.display().to_string(), &resolved).map_err(PrepareError::from)?;
     let Some(found) = find(path).map_err(PrepareError::from)? else {
         return follow_from_start(&scenario, options, exchange, stop);
     };

@@ -11,7 +11,7 @@ use pulvis_parallel::exchange::Exchange;
 
 use super::averages::Average;
 use super::check::stages;
-use super::checkpoint::{Found, ResultRecord, checkpoint_files, find};
+use super::checkpoint::{Found, ResultRecord, checkpoint_files, find, scenario_from_text};
 use super::disk::refuse_full_disk;
 use super::ending::Ending;
 use super::error::{PrepareError, RunError};
@@ -219,7 +219,7 @@ fn resume_as_leader(
     let unreadable = |source| PrepareError::Folder { folder: folder.to_owned(), source };
     let resolved = std::fs::read_to_string(&record).map_err(unreadable)?;
     let scenario =
-        Scenario::from_str(&record.display().to_string(), &resolved).map_err(PrepareError::from)?;
+        scenario_from_text(&record.display().to_string(), &resolved).map_err(PrepareError::from)?;
     refuse_missing_formats(&scenario)?;
     // Others read the same files, which change from here on.
     Leader::new(options.exchange.as_ref()).wait_for_others()?;

@@ -9,7 +9,10 @@ use std::path::{Path, PathBuf};
 
 use super::allow::limits;
 use super::cell::check_cell;
-use super::checkpoint::{Ancestor, Checkpoint, FindError, Found, LedWall, RunRecord, find, of_run};
+use super::checkpoint::{
+    Ancestor, Checkpoint, FindError, Found, LedWall, RunRecord, find, of_run, read_particles,
+    scenario_from_text,
+};
 use super::damping::refuse_overdamped;
 use super::ending::Ending;
 use super::error::PrepareError;
@@ -85,7 +88,7 @@ fn walls_after(scenario: &Scenario, ancestors: &[Ancestor]) -> Result<Vec<Wall>,
     let mut walls = drawn_walls(scenario);
     let mut ended = true;
     for Ancestor { scenario, stage, stage_ended, led_walls } in ancestors {
-        let ancestor = Scenario::from_str("the scenario of an earlier run", scenario)?;
+        let ancestor = scenario_from_text("the scenario of an earlier run", scenario)?;
         let begun = &ancestor.stages[..(*stage as usize + 1).min(ancestor.stages.len())];
         enter_stages(&mut walls, begun, ended);
         put_led(led_walls, &mut walls).map_err(|problem| PrepareError::Misfit {
@@ -187,7 +190,7 @@ fn with_start(mut document: Document, path: Option<&Path>) -> Result<Document, I
         document =
             document.with_missing_from(&base, &["title", "start_from", "allow", "stages", "output"], &place);
     }
-    Ok(document)
+    Ok(document.with_checkpoint_reader(read_particles))
 }
 
 /// Whether two scenarios that differ by their seeds start with the same particles: then their runs are the same.
@@ -209,7 +212,7 @@ pub(crate) fn start_alike(one: &Scenario, other: &Scenario) -> Result<bool, Prep
 
 /// The scenario of a checkpoint, and the stage in it.
 fn parent(checkpoint: &Checkpoint) -> Result<(Scenario, usize), InputErrors> {
-    let scenario = Scenario::from_str("the scenario of the checkpoint", &checkpoint.scenario)?;
+    let scenario = scenario_from_text("the scenario of the checkpoint", &checkpoint.scenario)?;
     let last = scenario.stages.len() - 1;
     Ok((scenario, checkpoint.run.stage().min(last)))
 }

@@ -8,7 +8,7 @@ use pulvis_io::vtk::{Entry, Frame, read_frame, read_frame_without_contacts, read
 
 use super::error::RenderError;
 use super::plan::FrameChoice;
-use crate::protocol::{RECORD, checkpoint_files, frame_of_checkpoint};
+use crate::protocol::{RECORD, checkpoint_files, frame_of_checkpoint, scenario_from_text};
 
 /// The index of frames in the folder of a run.
 const INDEX: &str = "series.pvd";
@@ -62,7 +62,7 @@ impl Source {
         }
         // Title, names and units; a picture without them is better than none.
         let text = std::fs::read_to_string(&record).ok();
-        let scenario = text.and_then(|text| Scenario::from_str(RECORD, &text).ok());
+        let scenario = text.and_then(|text| scenario_from_text(RECORD, &text).ok());
         Ok(Self { scenario, folder: run.to_owned(), frames: Frames::Files(entries) })
     }
 

@@ -4,12 +4,11 @@ use std::path::{Path, PathBuf};
 
 use pulvis_input::Problem;
 use pulvis_input::figure::Expression;
-use pulvis_input::scenario::Scenario;
 use pulvis_io::plot::{Chart, Figure, Series};
 use serde::Deserialize;
 use thiserror::Error;
 
-use crate::protocol::{FIELDS, RECORD, TIME_SERIES};
+use crate::protocol::{FIELDS, RECORD, TIME_SERIES, scenario_from_text};
 
 /// Why a chart cannot be drawn: the input is to blame.
 #[derive(Debug, Error)]
@@ -125,7 +124,7 @@ impl RunSeries {
         };
         let descriptions = columns.iter().map(describe).collect();
         // Title and names of stages; a chart without them is better than none.
-        let scenario = record.and_then(|text| Scenario::from_str(RECORD, &text).ok());
+        let scenario = record.and_then(|text| scenario_from_text(RECORD, &text).ok());
         let stages = scenario.iter().flat_map(|scenario| &scenario.stages).map(|stage| stage.name.clone());
         let stages = stages.collect();
         let title = scenario.and_then(|scenario| scenario.title).unwrap_or_default();

@@ -44,12 +44,12 @@ fn table(path: &Path) -> BTreeMap<String, Vec<String>> {
     columns
 }
 
-fn numbers(table: &BTreeMap<String, Vec<String>>, name: &str) -> Vec<f64> {
+pub(super) fn numbers(table: &BTreeMap<String, Vec<String>>, name: &str) -> Vec<f64> {
     table[name].iter().map(|cell| cell.parse().unwrap()).collect()
 }
 
 /// The last table of particles that a run has left.
-fn last_table(folder: &Path, stem: &str) -> BTreeMap<String, Vec<String>> {
+pub(super) fn last_table(folder: &Path, stem: &str) -> BTreeMap<String, Vec<String>> {
     let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let is_one = |name: &String| {
         name.strip_prefix(stem)

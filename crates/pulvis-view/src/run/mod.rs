@@ -80,7 +80,7 @@ impl Run {
     /// What the run was, where its record can be read.
     pub(crate) fn scenario(&self) -> Option<Scenario> {
         let text = std::fs::read_to_string(self.folder.join(RECORD)).ok()?;
-        Scenario::from_str(RECORD, &text).ok()
+        pulvis_lab::protocol::scenario_from_text(RECORD, &text).ok()
     }
 
     /// Title, times of frames, names of materials and walls, and what stands in each column.

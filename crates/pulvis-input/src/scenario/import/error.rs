@@ -113,6 +113,26 @@ pub enum PointsError {
         /// What is wrong, with the path of the file.
         reason: String,
     },
+    /// A checkpoint that cannot be used.
+    #[error("{reason}; expected a checkpoint of a run, or the folder of a run that has one")]
+    Checkpoint {
+        /// What is wrong, with the path of the file.
+        reason: String,
+    },
+    /// A particle of a material that the scenario does not have.
+    #[error(
+        "{file}: the material of particle {particle} is \"{found}\"; expected one of {known}, as the key `materials` says"
+    )]
+    Material {
+        /// The path of the file.
+        file: String,
+        /// Its number, from 0.
+        particle: usize,
+        /// The material.
+        found: String,
+        /// Those that are known.
+        known: String,
+    },
     /// The file has fewer instants.
     #[error("{file} holds {found} frames; expected more, for frame {wanted} counted from 0")]
     Frame {

@@ -1,5 +1,6 @@
 //! Particles out of files of Pulvis and of other programs.
 
+mod checkpoint;
 mod dump;
 mod error;
 mod lammps_data;
@@ -8,6 +9,7 @@ mod table;
 mod vtk;
 mod xyz;
 
+pub use checkpoint::{CheckpointParticles, CheckpointReader, GrainColumn};
 pub use error::PointsError;
 
 use super::arrangement::Grain;
@@ -44,17 +46,20 @@ pub enum PointsFormat {
     Vtk,
     /// The folder of a run of Pulvis.
     Run,
+    /// A checkpoint of a run, or the latest one in its folder.
+    Checkpoint,
 }
 
 impl PointsFormat {
     /// All of them, with their names in a scenario.
-    pub const ALL: [(&'static str, Self); 6] = [
+    pub const ALL: [(&'static str, Self); 7] = [
         ("table", Self::Table),
         ("lammps-dump", Self::LammpsDump),
         ("lammps-data", Self::LammpsData),
         ("xyz", Self::Xyz),
         ("vtk", Self::Vtk),
         ("run", Self::Run),
+        ("checkpoint", Self::Checkpoint),
     ];
 
     /// The name in a scenario.
@@ -70,27 +75,37 @@ impl PointsFormat {
             "data" | "lmp" => Self::LammpsData,
             "xyz" | "extxyz" => Self::Xyz,
             "vtp" | "vtu" | "vtm" | "pvd" => Self::Vtk,
+            "pulvis" => Self::Checkpoint,
             _ if path.is_dir() => Self::Run,
             _ => Self::Table,
         }
     }
 }
 
-/// Reads a file of particles, or the folder of a run.
-pub(super) fn read_points(path: &Path, reading: &FileReading) -> Result<Vec<Grain>, PointsError> {
+/// Particles, and what a file says of them beside what all particles have.
+pub(super) type Read = (Vec<Grain>, Vec<GrainColumn>);
+
+/// Reads a file of particles, or the folder of a run; checkpoints by a reader.
+pub(super) fn read_points(
+    path: &Path,
+    reading: &FileReading,
+    reader: Option<CheckpointReader>,
+) -> Result<Read, PointsError> {
     let file = path.display().to_string();
-    let grains = match reading.format {
-        PointsFormat::Vtk => vtk::read(path, reading, &[]),
-        PointsFormat::Run => vtk::read_run(path, reading),
+    let alone = |grains| (grains, Vec::new());
+    let (grains, columns) = match reading.format {
+        PointsFormat::Vtk => vtk::read(path, reading, &[]).map(alone),
+        PointsFormat::Run => vtk::read_run(path, reading).map(alone),
+        PointsFormat::Checkpoint => checkpoint::read(path, reading, reader),
         _ => match std::fs::read_to_string(path) {
-            Ok(text) => parse_points(&file, &text, reading),
+            Ok(text) => parse_points(&file, &text, reading).map(alone),
             Err(reason) => Err(unread(path, reason)),
         },
     }?;
     if grains.is_empty() {
         return Err(PointsError::Empty { file });
     }
-    Ok(grains)
+    Ok((grains, columns))
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, PointsError> {

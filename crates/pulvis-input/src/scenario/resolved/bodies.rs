@@ -61,7 +61,9 @@ impl Scenario {
                 let name = Growth::ALL.iter().find(|(_, other)| other == growth).map_or("", |(name, _)| name);
                 writer.key("growth", text(name));
             }
-            Arrangement::File { path, reading, grains: _ } => self.write_file(writer, path, reading),
+            Arrangement::File { path, reading, grains: _, columns: _ } => {
+                self.write_file(writer, path, reading)
+            }
             Arrangement::List(grains) => self.write_grains(writer, grains),
         }
     }

@@ -5,6 +5,7 @@ mod find;
 mod groups;
 mod keeper;
 mod motion;
+mod particles;
 mod planes;
 mod state;
 
@@ -24,6 +25,8 @@ pub use find::{FindError, checkpoint_files, has_ended};
 pub(super) use find::{Found, find, of_run};
 pub(super) use keeper::{Keeper, Purpose};
 pub(super) use motion::LedWall;
+pub(super) use particles::read_particles;
+pub use particles::scenario_from_text;
 use state::StateRecord;
 
 /// Where a run is that has come to its end.

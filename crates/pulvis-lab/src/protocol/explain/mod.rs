@@ -8,13 +8,12 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use pulvis_core::{ParticleId, Simulation};
-use pulvis_input::scenario::Scenario;
 
 pub(super) use cause::likely_cause;
 pub(super) use report::{ALARM, AlarmReport};
 use views::{deepest_contacts, fastest, forces_on};
 
-use super::checkpoint::{Found, find};
+use super::checkpoint::{Found, find, scenario_from_text};
 use super::error::PrepareError;
 use super::folder::RECORD;
 use super::start::resumed;
@@ -98,7 +97,7 @@ fn parts_of_state(
 ) -> Result<Vec<(String, String)>, PrepareError> {
     let file = found.path.clone();
     let name = format!("the scenario in {}", file.display());
-    let scenario = Scenario::from_str(&name, &found.checkpoint.scenario).map_err(PrepareError::from)?;
+    let scenario = scenario_from_text(&name, &found.checkpoint.scenario).map_err(PrepareError::from)?;
     let simulation = resumed(&scenario, found)?.simulation;
     let heading = format!(
         "The last state that was kept: step {}, t = {:.6e} s, in {}",

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use pulvis_input::Scenario;
 use pulvis_io::frames::{self, FrameWriter, Instant, Precision, Series, Units};
 
 use super::Session;
-use crate::protocol::checkpoint::{Checkpoint, FindError, Label, LedWall, RunRecord, find};
+use crate::protocol::checkpoint::{
+    Checkpoint, FindError, Label, LedWall, RunRecord, find, scenario_from_text,
+};
 use crate::protocol::error::{PrepareError, RunError};
 use crate::protocol::formats::units;
 use crate::protocol::frame::{Selection, frame_of, selected_frame};
@@ -41,7 +42,7 @@ impl Session {
     pub fn resume(path: &Path) -> Result<Self, RunError> {
         let found = find(path).map_err(PrepareError::from)?.ok_or_else(|| FindError::None(path.to_owned()));
         let found = found.map_err(PrepareError::from)?;
-        let scenario = Scenario::from_str(&path.display().to_string(), &found.checkpoint.scenario)
+        let scenario = scenario_from_text(&path.display().to_string(), &found.checkpoint.scenario)
             .map_err(PrepareError::from)?;
         let Resumed { simulation, plans, ancestors, record, results } = resumed(&scenario, found)?;
         let update = record.update as usize;

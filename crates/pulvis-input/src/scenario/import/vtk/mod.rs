@@ -14,7 +14,6 @@ use super::{FileReading, PointsError, read_bytes};
 use crate::document::Document;
 use crate::problem::shortened;
 use crate::scenario::arrangement::Grain;
-use crate::value::Value;
 use file::{Array, VtkFile};
 use pulvis_math::Vector3;
 use std::collections::BTreeMap;
@@ -59,12 +58,7 @@ pub(super) fn read_run(folder: &Path, reading: &FileReading) -> Result<Vec<Grain
 /// The names of the materials of a run, in their order.
 fn materials_of_run(record: &Path) -> Result<Vec<String>, PointsError> {
     let refused = |errors: crate::InputErrors| PointsError::Record { reason: errors.to_string() };
-    let document = Document::load(record).map_err(refused)?;
-    let names = document.parts().1.entries.get("materials").and_then(|entry| match &entry.node.value {
-        Value::Table(materials) => Some(materials.in_order()),
-        _ => None,
-    });
-    Ok(names.unwrap_or_default().into_iter().map(|(name, _)| name.to_owned()).collect())
+    Ok(Document::load(record).map_err(refused)?.material_names())
 }
 
 /// Reads the particles of a file, or of the files that it names; numbers of materials count `names`, if there are any.

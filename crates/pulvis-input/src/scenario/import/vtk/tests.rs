@@ -3,7 +3,11 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use super::*;
-use crate::scenario::import::{PointsFormat, read_points};
+use crate::scenario::import::PointsFormat;
+
+fn read_points(path: &Path, reading: &FileReading) -> Result<Vec<Grain>, PointsError> {
+    crate::scenario::import::read_points(path, reading, None).map(|(grains, _)| grains)
+}
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use std::fs;
