@@ -35,6 +35,9 @@ pub(crate) enum Failure {
     #[cfg(feature = "mpi")]
     #[error("MPI: {0}")]
     Ranks(String),
+    /// The system has no room for a thread.
+    #[error("cannot begin a thread: {0}")]
+    Thread(std::io::Error),
     #[error(transparent)]
     Law(#[from] InputErrors),
     #[error(transparent)]

@@ -28,11 +28,11 @@ type Outcome<T = ()> = Result<T, String>;
 const USAGE: &str = "\
 usage: cargo xtask <task>
 
-  test                 all tests, and the VTK files read by Python's VTK where it can be installed
+  test                 all tests; the VTK files read by Python's VTK, and the Python package, where pip can install what they need
   slow                 every law in beds of 1000 grains, 200 kills of runs, 100 000 damaged inputs, and a hundred times as many
                        random paths (half an hour)
   soak [MINUTES]       a driven bed for 10 minutes or as long as told: memory, ledger, contacts against brute force
-  python               the Python package: lints, wheel, and its tests in an environment of its own (minutes: it builds the engine)
+  python               the Python package as users get it: the optimised wheel, and its tests in an environment of its own (minutes)
   mpi [KILLS]          runs on processes of Open MPI and MPICH: the files of one process, also after 4 kills at random moments, or as
                        many as told (minutes: it builds the program with each)
   hdf5                 the program with the feature `hdf5`, its files read by h5py (minutes: it builds what is around the engine once more)

@@ -4,25 +4,30 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::Outcome;
-use crate::process::{cargo, root, run, target, works};
+use crate::process::{root, run, scratch, target, works};
 
 /// What the tests need beside the package.
 const TOOLS: [&str; 9] =
     ["maturin>=1.8,<2", "numpy", "pandas", "matplotlib", "scipy", "pytest", "mypy", "nbclient", "ipykernel"];
 
-/// Lints, wheel, installation and tests.
+/// The wheel that users get: optimised, installed and tested.
 pub fn run_all() -> Outcome {
+    check("release")
+}
+
+/// A wheel of the profile that all tests have, so that most of it is built already.
+pub fn run_with_tests() -> Outcome {
+    check("dev")
+}
+
+/// Wheel, installation and tests.
+fn check(profile: &str) -> Outcome {
     let package = root().join("python");
-    // The package is a workspace of its own: what it needs is built beside the workspace's.
-    let build = target().join("python");
-    run(cargo(&["fmt", "--check"]).current_dir(&package))?;
-    let Some(python) = environment(&target().join("xtask-python-package")) else { return Ok(()) };
-    let mut clippy = cargo(&["clippy", "--release", "--locked", "--quiet", "--", "-D", "warnings"]);
-    run(clippy.current_dir(&package).env("CARGO_TARGET_DIR", &build).env("PYO3_PYTHON", &python))?;
-    let wheels = build.join("wheels");
-    let maturin = ["-m", "maturin", "build", "--release", "--locked", "--quiet", "--out"];
+    let Some(python) = environment() else { return Ok(()) };
+    let wheels = scratch(&format!("wheels-{profile}"))?;
+    let maturin = ["-m", "maturin", "build", "--profile", profile, "--locked", "--quiet", "--out"];
     let mut command = Command::new(&python);
-    command.args(maturin).arg(&wheels).current_dir(&package).env("CARGO_TARGET_DIR", &build);
+    command.args(maturin).arg(&wheels).current_dir(&package).env("CARGO_TARGET_DIR", target());
     run(&mut command)?;
     let mut install = Command::new(&python);
     install.args(["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"]).arg(newest(&wheels)?);
@@ -41,7 +46,8 @@ fn newest(folder: &Path) -> Outcome<PathBuf> {
 }
 
 /// The Python of an environment that has the tools; without one, says so.
-fn environment(folder: &Path) -> Option<PathBuf> {
+pub fn environment() -> Option<PathBuf> {
+    let folder = target().join("xtask-python-package");
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     let imports = "import maturin, numpy, pandas, matplotlib, scipy, pytest, mypy, nbclient, ipykernel";
     let has_tools = || works(Command::new(&python).args(["-c", imports]));
@@ -56,7 +62,7 @@ fn environment(folder: &Path) -> Option<PathBuf> {
     let system = ["python3", "python"].into_iter().find(|name| works(Command::new(name).args(new_enough)));
     let Some(system) = system else { return skipped("there is no Python 3.10 or newer here") };
     println!("installing what the tests of the Python package need (once)");
-    if !works(Command::new(system).args(["-m", "venv"]).arg(folder)) {
+    if !works(Command::new(system).args(["-m", "venv"]).arg(&folder)) {
         return skipped("`python3 -m venv` does not work here");
     }
     let install = ["-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "20"];

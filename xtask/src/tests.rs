@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::Outcome;
+use crate::python;
 use crate::process::{cargo, pulvis, root, run, scratch, target, works};
 
 /// All tests.
@@ -15,7 +16,13 @@ pub fn run_all() -> Outcome {
         println!("skipped: cargo-nextest is not installed; `cargo test` runs the same tests");
         run(&mut cargo(&["test", "--workspace"]))?;
     }
-    sample_files()
+    sample_files()?;
+    python::run_with_tests()
+}
+
+/// Installs what tests need beside cargo, where it can be had.
+pub fn prepare() {
+    let _ = (python_with_vtk(), python::environment());
 }
 
 /// What takes too long for every change, in the release build.

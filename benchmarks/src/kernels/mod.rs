@@ -22,6 +22,20 @@ const SWEEPS: usize = 2000;
 
 /// Prints a table of all models whose name holds `only`.
 pub(crate) fn run(only: &str) -> Result<(), Failure> {
+    on_a_deep_stack(|| print_table(only))?
+}
+
+/// What `work` gives. Where code is not optimised, as in tests, every temporary of eight lanes through all laws has its own
+/// place on the stack: more than a thread has if nothing is said.
+fn on_a_deep_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    const STACK: usize = 256 << 20;
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
+        thread.map_err(Failure::Thread)?.join().map_err(|panic| std::panic::resume_unwind(panic))
+    })
+}
+
+fn print_table(only: &str) -> Result<(), Failure> {
     let builds = Build::available();
     println!(
         "ns per contact{}; memory of 64 contacts in cache, no gathers and scatters",
