@@ -89,7 +89,8 @@ impl Kernel for ForcesOfCharges<'_> {
         self.forces.fill(Packed4::default());
         for place in self.charges.places(rows) {
             let (own, lane) = (&blocks[place / LANES], place % LANES);
-            let [x, y, z] = [own.x, own.y, own.z].map(|along| R::splat(along.0[lane]));
+            // No closure: it would be compiled without the instructions of `R`.
+            let (x, y, z) = (R::splat(own.x.0[lane]), R::splat(own.y.0[lane]), R::splat(own.z.0[lane]));
             let [mut field_x, mut field_y, mut field_z, mut potential] = [R::zero(); 4];
             for block in blocks {
                 let (dx, dy, dz) = (x - R::load(&block.x), y - R::load(&block.y), z - R::load(&block.z));
