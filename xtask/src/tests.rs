@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::Outcome;
-use crate::python;
 use crate::process::{cargo, pulvis, root, run, scratch, target, works};
+use crate::python;
 
 /// All tests.
 pub fn run_all() -> Outcome {

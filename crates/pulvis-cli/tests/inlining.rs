@@ -17,7 +17,6 @@ fn no_vector_instruction_is_a_function_call() {
     // Hash tables of the standard library compare sixteen bytes at a time: calls in crates that tests do not optimise. No loop of
     // the engine works on bytes.
     let is_of_hash_tables = |name: &str| ["_epi8", "_si128"].iter().any(|part| name.contains(part));
-    let calls: Vec<&&str> =
-        names.iter().filter(|name| is_vector(name) && !is_of_hash_tables(name)).collect();
+    let calls: Vec<&&str> = names.iter().filter(|name| is_vector(name) && !is_of_hash_tables(name)).collect();
     assert!(calls.is_empty(), "vector instructions that are called: {calls:?}");
 }
