@@ -317,7 +317,9 @@ def test_instants_and_pictures_are_files(gas: dict[str, Any], tmp_path: Path) ->
         simulation.advance(50)
         simulation.write(tmp_path / "vtk")
         simulation.write(tmp_path / "npz", "npz", contacts=False)
-    assert len(list((tmp_path / "npz").glob("*.npz"))) == 2
+        simulation.write(tmp_path / "xyz", "xyz", contacts=False)
+    assert [path.name for path in (tmp_path / "xyz").iterdir()] == ["sample.xyz"]
+    assert len(list((tmp_path / "npz").glob("sample_*.npz"))) == 2
     assert len(list((tmp_path / "vtk").glob("particles_*.vtp"))) == 2
     [_, last] = sorted((tmp_path / "npz").glob("*.npz"))
     with np.load(last) as arrays:

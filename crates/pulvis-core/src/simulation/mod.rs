@@ -33,7 +33,6 @@ use self::cell::Cell;
 use self::sums::{PassTotals, RowSums};
 use crate::chunk_tree::ChunkTree;
 use crate::columns::NamedColumn;
-
 use crate::contacts::{BrokenBonds, ContactTable, Interactions, MemoryStore};
 use crate::electrostatics::Charges;
 use crate::integrator::Kicked;

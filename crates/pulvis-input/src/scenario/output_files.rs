@@ -132,8 +132,10 @@ pub(super) struct Sample<'a> {
     pub(super) columns: Option<&'a [String]>,
 }
 
-/// The name of a block where it has none.
-const DEFAULT_NAME: &str = "sample";
+impl OutputFiles {
+    /// How the names of the files of a block begin that has no name.
+    pub const DEFAULT_NAME: &str = "sample";
+}
 
 /// Reads `[[output.files]]`, if there are.
 pub(super) fn read_output_files(
@@ -157,7 +159,7 @@ fn read_block(
     before: &[OutputFiles],
 ) -> Result<OutputFiles, Reported> {
     let format = table.required("format", Choice(&FileFormat::ALL));
-    let name = table.or("name", Text, DEFAULT_NAME.to_owned());
+    let name = table.or("name", Text, OutputFiles::DEFAULT_NAME.to_owned());
     let name = name.and_then(|name| check_name(&table, name, format.as_ref().ok().copied(), before));
     let every = read_either(&mut table);
     let own = sample.columns.unwrap_or_default();

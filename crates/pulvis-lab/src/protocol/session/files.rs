@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use pulvis_input::scenario::{FileFormat, OutputFiles};
 use pulvis_io::frames::{self, FrameWriter, Instant, Precision, Series, Units};
 
 use super::Session;
@@ -133,7 +134,8 @@ impl Session {
                 let precision = Precision::Double;
                 let writer = (format.open)(&Series {
                     folder,
-                    name: "",
+                    // As files of runs: `[output]` has no prefix for VTK, and a block of other files begins with its name.
+                    name: if format.name == FileFormat::Vtk.name() { "" } else { OutputFiles::DEFAULT_NAME },
                     precision,
                     compressed: false,
                     contacts,
