@@ -164,6 +164,8 @@ fn a_step_that_does_not_resolve_two_charges_that_touch_is_refused() {
     assert!(text.contains("two charges that touch") && text.contains("smaller charges"), "{text}");
     let automatic = falling_charges("").replace("100 pC", "1 uC");
     let forecast = preflight(&scenario(&automatic)).unwrap();
+    // What rests is moved by the charges: that nothing moves would be wrong.
+    assert!(forecast.warnings.is_empty(), "{:?}", forecast.warnings);
     let slope = 2.0 * 8.987_551_792_3e9 / 2.0 * 1e-12 / 0.8e-3_f64.powi(3);
     let mass: f64 = 4.0 / 3.0 * std::f64::consts::PI * 2000.0 * 0.4e-3_f64.powi(3);
     let expected = std::f64::consts::PI * (0.5 * mass / slope).sqrt() / 50.0;

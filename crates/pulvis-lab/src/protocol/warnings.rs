@@ -38,7 +38,11 @@ impl Driven {
             particle.velocity.norm_squared() > 0.0 || particle.angular_velocity.norm_squared() > 0.0
         };
         let mut pushed = false;
-        prepared.simulation.for_each_contact(&mut |contact| pushed |= contact.force.norm_squared() > 0.0);
+        let simulation = &prepared.simulation;
+        simulation.for_each_contact(&mut |contact| pushed |= contact.force.norm_squared() > 0.0);
+        let mut by_charges =
+            (0..simulation.particles().len()).filter_map(|row| simulation.electrostatic_force(row));
+        pushed |= by_charges.any(|force| force.norm_squared() > 0.0);
         Self {
             controls: vec![WallControl::Motion(WallMotion::Fixed); scenario.walls.len()],
             groups: scenario.groups.iter().map(|group| known(prepared, &group.name)).collect(),
